@@ -19,6 +19,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "runtime/core/members.hpp"
+
 namespace luxodus {
 
 /// The limit of a field: the largest number, or the most items of a list.
@@ -49,11 +51,6 @@ struct FixedList {
 namespace detail {
 struct AnyField {
   void operator()(const char*, auto&, const char* = "", AtMost = {}) const {}
-};
-
-struct AnyMember {
-  template <class Value>
-  constexpr operator Value() const;  // NOLINT: implicit on purpose, stands for a member of any type
 };
 
 struct FieldCount {
@@ -98,16 +95,7 @@ constexpr void for_each_field(auto&& field, Struct& m) {
   if constexpr (Listed<Plain>) Plain::fields(field, m);
 }
 
-/// How many members a struct has: with how many values it can be initialised.
-template <class Struct, class... Members>
-consteval size_t members_of() {
-  if constexpr (requires { Struct{Members{}..., detail::AnyMember{}}; })
-    return members_of<Struct, Members..., detail::AnyMember>();
-  else
-    return sizeof...(Members);
-}
-
-/// How many of them its list names.
+/// How many members of a struct its list names.
 template <class Struct>
 consteval size_t members_listed() {
   Struct m{};

@@ -96,7 +96,7 @@ const char* name_of(Guidance guidance) {
   return words[static_cast<size_t>(guidance)];
 }
 
-const char* name_of(Walk::End end) {
+const char* name_of(GuidedWalk::End end) {
   constexpr const char* words[] = {"arrives", "lost", "unknown"};
   return words[static_cast<size_t>(end)];
 }
@@ -124,8 +124,8 @@ GuidedTime guided_time(const GuidedRoute& route) {
 
 /// Each place stands for the part of the route up to the next place. The states that count reach
 /// from the last one before the walker reaches the place to the first one after he has left it.
-Walk walk(const GuidedRoute& route, double start_s, double speed_m_s) {
-  Walk out;
+GuidedWalk walk(const GuidedRoute& route, double start_s, double speed_m_s) {
+  GuidedWalk out;
   out.start_s = start_s;
   const auto& times = route.times_s;
   for (size_t i = 0; i < route.along_m.size(); ++i) {
@@ -138,11 +138,11 @@ Walk walk(const GuidedRoute& route, double start_s, double speed_m_s) {
     const auto last = std::min(static_cast<size_t>(left - times.begin()), times.size() - 1);
     for (size_t t = first; t <= last; ++t) {
       if (route.holds(t, i)) continue;
-      out.end = Walk::End::lost;
+      out.end = GuidedWalk::End::lost;
       return out;
     }
     if (left == times.end()) {
-      out.end = Walk::End::unknown;
+      out.end = GuidedWalk::End::unknown;
       return out;
     }
   }

@@ -64,14 +64,14 @@ GuidedTime guided_time(const GuidedRoute& route);
 
 /// How far a person gets who walks at a constant speed. A place must be guided in all states from
 /// the last one before the walker reaches it to the first one after he reaches the next place.
-struct Walk {
+struct GuidedWalk {
   enum class End { arrives, lost, unknown };  // unknown: still walking after the last state
   double start_s = 0;
   End end = End::arrives;
   double at_m = 0, at_s = 0;  // where and when the walk ends
 };
 /// Requires: a start between the first and the last state; a speed above 0 [m/s].
-Walk walk(const GuidedRoute& route, double start_s, double speed_m_s);
-const char* name_of(Walk::End end);
+GuidedWalk walk(const GuidedRoute& route, double start_s, double speed_m_s);
+const char* name_of(GuidedWalk::End end);
 
 }  // namespace luxodus

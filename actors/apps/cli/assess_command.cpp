@@ -18,12 +18,13 @@
 #include "actors/apps/cli/signals.hpp"
 #include "actors/apps/cli/version.hpp"
 #include "actors/cast/process/in_process.hpp"
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/assessment_files.hpp"
 #include "actors/judge/assess/check_words.hpp"
+#include "actors/judge/assess/compare.hpp"
+#include "actors/judge/assess/guidance_words.hpp"
 #include "actors/judge/assess/over_time.hpp"
-#include "actors/judge/assess/over_time_json.hpp"
+#include "actors/judge/assess/record_assessment.hpp"
 #include "actors/judge/assess/state_words.hpp"
-#include "actors/judge/texts/remark_json.hpp"
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
@@ -54,22 +55,21 @@ std::string ids_of(std::span<const NamedRules> rows) {
 }
 
 /// Prints in a line a check that fails, or whose limit was not measured.
-void print_check(const Json& check) {
-  if (check["verdict"] == "fail")
+void print_check(const Check& check) {
+  if (check.verdict == CheckVerdict::fail)
     std::printf("  fails: %s\n", check_words(check).c_str());
   else
     std::printf("  not verified: %s: %s\n", check_words(check).c_str(),
-                english_in(check, "reasons").c_str());
+                english().remarks(check.reasons).c_str());
 }
 
 /// Views of signs behind people on routes, which are read after turning round.
-std::string behind_words(const Json& a) {
+std::string behind_words(const AssessmentRecord& a) {
   size_t behind = 0, legible = 0;
-  for (const Json& row : a["sights"]) {
-    const Json gaze = row["angle_from_gaze"].value("value", Json());
-    if (!gaze.is_number() || gaze.get<double>() <= 90) continue;
+  for (const SightRecord& sight : a.sights) {
+    if (!(sight.from_gaze_deg > 90)) continue;
     ++behind;
-    legible += row["verdict"] == name_of(SightVerdict::legible) ? 1 : 0;
+    legible += sight.verdict == SightVerdict::legible ? 1 : 0;
   }
   if (behind == 0) return "";
   return fmt::format("of these {} views are of signs behind the walkers, {} of them legible",
@@ -77,30 +77,28 @@ std::string behind_words(const Json& a) {
 }
 
 /// Whether where signs hang decides a check.
-bool is_of_placed_signs(const Json& check) {
-  const auto rule = rule_named(text_in(check, "rule"));
-  return rule && row_of(*rule).decided_by == DecidedBy::placed_signs;
+bool is_of_placed_signs(const Check& check) {
+  return check.rule.id != RuleId::none &&
+         row_of(check.rule.id).decided_by == DecidedBy::placed_signs;
 }
 
-void print_summary(const Json& a) {
-  std::printf("%s\n%s%s\n", first_words(a).c_str(), state_text(a).c_str(),
-              verdict_words(a).c_str());
-  for (const char* verdict : {"fail", "not verified"})
-    for (const Json& check : a["checks"])
-      if (check["verdict"] == verdict) print_check(check);
-  for (const Json& check : a["checks"])
-    if (check["verdict"] == "pass" && is_of_placed_signs(check) &&
-        !english_in(check, "reasons").empty())
+void print_summary(const AssessmentRecord& a) {
+  std::printf("%s\n%s%s\n", a.verdict.first.c_str(), state_text(a).c_str(),
+              a.verdict.words.c_str());
+  for (const CheckVerdict verdict : {CheckVerdict::fail, CheckVerdict::not_verified})
+    for (const Check& check : a.checks)
+      if (check.verdict == verdict) print_check(check);
+  for (const Check& check : a.checks)
+    if (check.verdict == CheckVerdict::pass && is_of_placed_signs(check) && !check.reasons.empty())
       std::printf("  passes, but: %s: %s\n", check_words(check).c_str(),
-                  english_in(check, "reasons").c_str());
+                  english().remarks(check.reasons).c_str());
   std::string seen;
-  for (const auto& [word, count] : a["sight_counts"].items())
-    seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
+  for (const auto& [word, count] : a.sight_counts)
+    seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count, word);
   if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
   if (const std::string behind = behind_words(a); !behind.empty())
     std::printf("%s\n", behind.c_str());
-  if (const auto over = a.find("over_time"); over != a.end())
-    std::printf("%s", guidance_text(*over).c_str());
+  if (a.over_time) std::printf("%s", guidance_text(*a.over_time).c_str());
 }
 
 /// Estimates the remaining time from the work done.
@@ -144,10 +142,10 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
   if (!a) return a.problem();
   const auto b = read_assessment(after);
   if (!b) return b.problem();
-  const Json comparison = comparison_of(a.value(), b.value());
+  const Comparison comparison = comparison_of(a.value(), b.value());
   std::printf("%s", comparison_text(comparison).c_str());
   if (!json.empty())
-    if (auto ok = write_json(behind_links(json), comparison); !ok) return ok.problem();
+    if (auto ok = write_json(behind_links(json), comparison_json(comparison)); !ok) return ok.problem();
   return ExitCode::success;
 }
 
@@ -201,11 +199,11 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
     if (one.by_inspection) continue;  // told above
     warn(problem_in(one.place, one.remark ? english().remark(*one.remark) : one.words));
   }
-  const Json json = assessment_json(*job.scene, assessed.value(), build.version);
-  if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
-  print_summary(json);
-  if (auto ok = write_report_and_tell(out.value(), json, job.report); !ok) return ok.problem();
-  return job.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
+  const AssessmentRecord record = record_of(*job.scene, assessed.value(), build.version);
+  if (auto ok = write_assessment(out->path(), record); !ok) return ok.problem();
+  print_summary(record);
+  if (auto ok = write_report_and_tell(out.value(), record, job.report); !ok) return ok.problem();
+  return job.strict && anything_open(record) ? ExitCode::failure : ExitCode::success;
 }
 
 Command assess_command() {

@@ -1,8 +1,8 @@
-// luxodus report: writes the report of an assessment again from its JSON.
+// luxodus report: writes the report of an assessment again from its record.
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/report_options.hpp"
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/assessment_files.hpp"
 
 namespace luxodus::cli {
 
@@ -38,7 +38,7 @@ void add_report_options(Command& command, ReportWords& words) {
   command.options.insert(command.options.end(), options.begin(), options.end());
 }
 
-Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
+Result<void> write_report_and_tell(const OutputFolder& folder, const AssessmentRecord& assessment,
                                    const ReportWords& words) {
   ReportOptions options = words.options();
   options.named = folder.named().string();

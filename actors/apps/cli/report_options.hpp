@@ -20,7 +20,7 @@ struct ReportWords {
 void add_report_options(Command& command, ReportWords& words);
 
 /// Writes the report and prints where it is. Errors: as write_report.
-Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
+Result<void> write_report_and_tell(const OutputFolder& folder, const AssessmentRecord& assessment,
                                    const ReportWords& words);
 
 }  // namespace luxodus::cli

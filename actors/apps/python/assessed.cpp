@@ -12,8 +12,8 @@
 #include "actors/apps/python/numbers.hpp"
 #include "actors/apps/python/values.hpp"
 #include "actors/cast/process/in_process.hpp"
-#include "actors/judge/assess/assessment_json.hpp"
 #include "actors/judge/assess/over_time.hpp"
+#include "actors/judge/assess/record_assessment.hpp"
 #include "actors/results/run/default_threads.hpp"
 #include "actors/results/run/open_scene.hpp"
 
@@ -69,7 +69,7 @@ MadeAssessment assess_scene(const OpenScene& scene, AssessOptions options, int n
     const auto last = times.empty() ? scene.at_frames() : taken(reader(times.back()));
     const Assessment made =
         taken(assess_states({last, times, reader}, options, waiting.interrupt(), tell, tell));
-    json = assessment_json(*last, made, LUX_VERSION);
+    json = assessment_json(record_of(*last, made, LUX_VERSION));
   });
   return {to_python(json)};
 }

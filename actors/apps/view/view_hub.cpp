@@ -82,7 +82,7 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
       options_(options),
       post_(std::move(post)),
       edits_(options.first),
-      backdrops_(backdrops_json(*scene_).dump()) {
+      backdrops_(backdrops_json(backdrops_of(*scene_)).dump()) {
   if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario)
     dimming_.seconds = seconds_said(scenario.value());
   if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;

@@ -11,9 +11,8 @@
 #include "actors/judge/assess/judged_state.hpp"
 #include "actors/judge/assess/line_of_sight.hpp"
 #include "actors/judge/inspect/inspect.hpp"
+#include "actors/judge/record/assessment_record.hpp"
 #include "actors/results/run/run_executor.hpp"
-#include "scenes/emergency/guidance.hpp"
-#include "scenes/emergency/legibility.hpp"
 #include "scenes/emergency/rules.hpp"
 
 namespace luxodus {
@@ -67,74 +66,6 @@ struct SightRow {
     Sight sight;
   };
   std::optional<Other> other;
-};
-
-/// A point of calculation on a plan, with all emergency luminaires lit [lx].
-struct PlanPoint {
-  glm::dvec3 place;
-  double lux = 0;
-};
-
-/// Direct light of all emergency luminaires on a grid over a floor, without furniture [lx].
-struct LightMap {
-  glm::dvec2 corner{0};  // of the first grid point
-  double spacing_m = 0;
-  int columns = 0, rows = 0;  // along x, along y
-  std::vector<double> lux;    // row by row, columns times rows values
-};
-
-/// One floor of the building, for its plan.
-struct PlanLevel {
-  double floor_m = 0;
-  std::vector<std::pair<glm::dvec2, glm::dvec2>> walls, furniture;  // sections at breast height
-  std::vector<PlanPoint> points;  // points of calculation on its routes and open areas
-  LightMap map;
-};
-
-/// For one sign and one smoke density: from how many of the places that it faces it is legible.
-struct SweepRow {
-  double factor = 1;  // on all extinctions
-  std::string sign;
-  int64_t places = 0, legible = 0, undecided = 0;
-};
-
-/// A state of an assessment over time.
-struct TimedState {
-  double at_s = 0;
-  Operation operation = Operation::mains;
-  std::optional<double> seconds_after_failure;
-  size_t lit = 0;  // number of lit luminaires
-  struct Frame {
-    std::string medium;
-    double time_s = 0;
-  };
-  std::vector<Frame> frames;  // times whose smoke the fire simulations give
-};
-
-/// How one route guides people of one eye height, over all states.
-struct RouteOverTime {
-  std::string route;
-  double eye_height_m = 0;
-  GuidedRoute guided;
-  GuidedRoute by_jin;   // verdict of Jin's law on the same signs
-  GuidedRoute by_line;  // verdict of the line-of-sight method
-  /// Verdict of FDS's VISIBILITY: a sign is seen if it is no farther away than VISIBILITY at the
-  /// place. Has no states if the case has no slices of it.
-  GuidedRoute by_fds;
-  std::vector<std::vector<std::optional<double>>> visibility_m;  // by FDS; by state and place
-  /// By state and place: the sign that guides, or would guide if it were read; "" if there is none.
-  std::vector<std::vector<std::string>> signs;
-  std::vector<Walk> walks;  // one walker starts at each state; empty without a walking speed
-};
-
-struct OverTime {
-  std::vector<TimedState> states;
-  std::vector<RouteOverTime> routes;
-  std::optional<double> walking_speed_m_s;
-  double low_albedo = 0, high_albedo = 0;  // albedos for which verdicts hold; both 0: no smoke
-  double depth_error = 0;                  // largest error of smoke sources
-  std::vector<std::string> warnings;       // comparisons that could not be made
-  int64_t paths = 0;                       // number of paths from eyes
 };
 
 /// A warning for the designer.

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "actors/judge/texts/remark_json.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/stored_zip.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/output_text.hpp"
@@ -46,14 +46,6 @@ bool is_ifc_guid(const std::string& text) {
          });
 }
 
-glm::dvec3 point_in(const Json& json) {
-  glm::dvec3 out(0);
-  if (json.is_array() && json.size() == 3)
-    for (size_t i = 0; i < 3; ++i)
-      if (json[i].is_number()) out[static_cast<glm::length_t>(i)] = json[i].get<double>();
-  return out;
-}
-
 /// What an issue is about: where it is, and its GlobalId.
 struct IssueSubject {
   std::string guid;
@@ -61,76 +53,86 @@ struct IssueSubject {
   std::optional<glm::dvec3> front;  // direction from which it is seen
 };
 
-const Json* row_named(const Json& rows, const std::string& name) {
-  for (const Json& row : rows)
-    if (text_in(row, "name") == name) return &row;
+template <class Row>
+const Row* row_named(const std::vector<Row>& rows, const std::string& name) {
+  for (const Row& row : rows)
+    if (row.name == name) return &row;
   return nullptr;
 }
 
-bool is_inside(const Json& outline, const glm::dvec3& p) {
+bool is_inside(const std::vector<glm::dvec2>& outline, const glm::dvec3& p) {
   bool inside = false;
   for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const double ax = outline[i][0].get<double>(), ay = outline[i][1].get<double>();
-    const double bx = outline[j][0].get<double>(), by = outline[j][1].get<double>();
-    if ((ay > p.y) != (by > p.y) && p.x < (bx - ax) * (p.y - ay) / (by - ay) + ax) inside = !inside;
+    const glm::dvec2 &a = outline[i], &b = outline[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+      inside = !inside;
   }
   return inside;
 }
 
-glm::dvec3 middle_of(const Json& area) {
-  glm::dvec3 sum(0);
-  for (const Json& corner : area["outline"])
-    sum += glm::dvec3(corner[0].get<double>(), corner[1].get<double>(), 0);
-  const double n = std::max<double>(1, static_cast<double>(area["outline"].size()));
-  return glm::dvec3(sum.x / n, sum.y / n, area["z"].get<double>());
+glm::dvec3 middle_of(const AreaRecord& area) {
+  glm::dvec2 sum(0);
+  for (const glm::dvec2& corner : area.outline) sum += corner;
+  const double n = std::max<double>(1, static_cast<double>(area.outline.size()));
+  return {sum / n, area.z_m};
 }
 
 /// The area, with a GlobalId, over which a place is.
-const Json* area_at(const Json& areas, const glm::dvec3& place) {
-  for (const Json& area : areas) {
-    const double above = place.z - area["z"].get<double>();
-    if (is_ifc_guid(text_in(area, "ifc_guid")) && above > -0.1 && above < storey_m &&
-        is_inside(area["outline"], place))
+const AreaRecord* area_at(const std::vector<AreaRecord>& areas, const glm::dvec3& place) {
+  for (const AreaRecord& area : areas) {
+    const double above = place.z - area.z_m;
+    if (is_ifc_guid(area.ifc_guid) && above > -0.1 && above < storey_m &&
+        is_inside(area.outline, place))
       return &area;
   }
   return nullptr;
 }
 
-IssueSubject subject_of(const Json& a, const Json& check) {
-  const std::string kind = text_in(check["subject"], "kind"),
-                    name = text_in(check["subject"], "name");
-  IssueSubject out;
-  const Json* row = nullptr;
-  if (kind == name_of(SubjectKind::luminaire)) row = row_named(a["luminaires"], name);
-  if (kind == name_of(SubjectKind::sign)) row = row_named(a["signs"], name);
-  if (kind == name_of(SubjectKind::emphasis)) row = row_named(a["places"]["emphasis"], name);
-  if (row != nullptr) {
-    out.guid = text_in(*row, "ifc_guid");
-    out.place = point_in((*row)["position"]);
-    if (row->contains("facing")) out.front = point_in((*row)["facing"]);
+/// A part of the building by its name.
+IssueSubject named_subject(const AssessmentRecord& a, const Subject& subject) {
+  switch (subject.kind) {
+    case SubjectKind::luminaire:
+      if (const LuminaireRecord* one = row_named(a.luminaires, subject.name))
+        return {one->ifc_guid, one->position, std::nullopt};
+      break;
+    case SubjectKind::sign:
+      if (const SignRecord* one = row_named(a.signs, subject.name))
+        return {one->ifc_guid, one->position, one->facing};
+      break;
+    case SubjectKind::emphasis:
+      if (const EmphasisRecord* one = row_named(a.places.emphasis, subject.name))
+        return {"", one->position, std::nullopt};
+      break;
+    case SubjectKind::open_area:
+    case SubjectKind::task_area:
+      if (const AreaRecord* area = row_named(a.places.areas, subject.name))
+        return {area->ifc_guid, middle_of(*area), std::nullopt};
+      break;
+    case SubjectKind::route:
+      if (const RouteRecord* route = row_named(a.places.routes, subject.name);
+          route != nullptr && !route->path.empty())
+        return {"", route->path.front(), std::nullopt};
+      break;
+    default:
+      break;
   }
-  if (kind == name_of(SubjectKind::open_area) || kind == name_of(SubjectKind::task_area))
-    if (const Json* area = row_named(a["places"]["areas"], name)) {
-      out.guid = text_in(*area, "ifc_guid");
-      out.place = middle_of(*area);
-    }
-  if (kind == name_of(SubjectKind::route))
-    if (const Json* route = row_named(a["places"]["routes"], name);
-        route && !(*route)["path"].empty())
-      out.place = point_in((*route)["path"][0]);
-  if (check.contains("worst_place")) out.place = point_in(check["worst_place"]);
+  return {};
+}
+
+IssueSubject subject_of(const AssessmentRecord& a, const Check& check) {
+  IssueSubject out = named_subject(a, check.subject);
+  if (check.worst) out.place = *check.worst;
   if (out.guid.empty() && out.place)
-    if (const Json* area = area_at(a["places"]["areas"], *out.place))
-      out.guid = text_in(*area, "ifc_guid");
+    if (const AreaRecord* area = area_at(a.places.areas, *out.place)) out.guid = area->ifc_guid;
   return out;
 }
 
 /// Where the camera stands: in front of a sign; above the floor beside another place, on the side
 /// of the middle of its area.
-glm::dvec3 eye_for(const Json& a, const IssueSubject& subject) {
+glm::dvec3 eye_for(const AssessmentRecord& a, const IssueSubject& subject) {
   const glm::dvec3 at = *subject.place;
   if (subject.front) return at + camera_distance_m * *subject.front;
-  const Json* area = area_at(a["places"]["areas"], at);
+  const AreaRecord* area = area_at(a.places.areas, at);
   glm::dvec3 way(1, 0, 0);
   double far = camera_distance_m;
   if (area != nullptr) {
@@ -143,7 +145,7 @@ glm::dvec3 eye_for(const Json& a, const IssueSubject& subject) {
       far = 1;
     }
   }
-  const double floor = area != nullptr ? (*area)["z"].get<double>() : at.z;
+  const double floor = area != nullptr ? area->z_m : at.z;
   const bool overhead = at.z > floor + camera_height_m;
   return glm::dvec3(at + far * way) + glm::dvec3(0, 0, overhead ? -1 : camera_height_m);
 }
@@ -164,7 +166,8 @@ std::string camera_xml(const glm::dvec3& eye, const glm::dvec3& target) {
 
 constexpr const char* xml_head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
-std::string viewpoint_xml(const Json& a, const IssueSubject& subject, const std::string& uuid) {
+std::string viewpoint_xml(const AssessmentRecord& a, const IssueSubject& subject,
+                          const std::string& uuid) {
   std::string out = xml_head;
   out += "<VisualizationInfo Guid=\"" + uuid + "\"><Components>";
   if (is_ifc_guid(subject.guid))
@@ -176,35 +179,35 @@ std::string viewpoint_xml(const Json& a, const IssueSubject& subject, const std:
 
 /// "2026-05-31T00:00:00Z" of the project's date, if that is one; else the first day of the epoch,
 /// since an assessment knows no clock.
-std::string date_of(const Json& a) {
-  const std::string date = text_in(a["project"], "date");
+std::string date_of(const AssessmentRecord& a) {
+  const std::string& date = a.project.date;
   const bool is_date = date.size() == 10 && date[4] == '-' && date[7] == '-' &&
                        std::all_of(date.begin(), date.end(),
                                    [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
   return (is_date ? date : "1970-01-01") + "T00:00:00Z";
 }
 
-std::string title_of(const Json& check) {
-  return text_in(check, "rule") + ", " + text_in(check, "edition") + ": " +
-         text_in(check["subject"], "text") + ": " + text_in(check, "title");
+std::string title_of(const Check& check) {
+  const std::string rule(name_of(check.rule.id));
+  return rule + ", " + check.rule.edition + ": " + english().subject(check.subject) + ": " +
+         english().rule_title(rule);
 }
 
-std::string description_of(const Json& check) {
-  std::string out = text_in(check, "title") + " (" + text_in(check, "clause") + ").";
-  const Json value = check.value("value", Json()), limit = check.value("limit", Json());
-  const std::string unit = text_in(check, "unit");
-  if (value.is_number()) out += fmt::format(" Found: {:.4g} {}.", value.get<double>(), unit);
-  if (limit.is_number())
-    out +=
-        fmt::format(" Demanded: {} {:.4g} {}.", text_in(check, "sense"), limit.get<double>(), unit);
-  for (const char* key : {"conditions", "reasons"})
-    if (const std::string words = english_in(check, key); !words.empty()) out += " " + words + ".";
+std::string description_of(const Check& check) {
+  const Texts t = english();
+  std::string out = t.rule_title(name_of(check.rule.id)) + " (" + t.clause(check.rule) + ").";
+  if (check.value) out += fmt::format(" Found: {:.4g} {}.", *check.value, check.unit);
+  if (check.limit)
+    out += fmt::format(" Demanded: {} {:.4g} {}.", check.at_least ? "at least" : "at most",
+                       *check.limit, check.unit);
+  for (const Remarks& remarks : {check.conditions, check.reasons})
+    if (!remarks.empty()) out += " " + t.remarks(remarks) + ".";
   return out;
 }
 
-std::string markup_xml(const Json& a, const Json& check, const std::string& topic,
+std::string markup_xml(const AssessmentRecord& a, const Check& check, const std::string& topic,
                        const std::string& viewpoint, size_t index) {
-  const std::string author = text_in(a["project"], "author");
+  const std::string& author = a.project.author;
   return xml_head + fmt::format(
                         "<Markup><Topic Guid=\"{}\" TopicType=\"Issue\" TopicStatus=\"Open\">"
                         "<Title>{}</Title><Index>{}</Index><Labels>Emergency lighting</Labels>"
@@ -216,28 +219,27 @@ std::string markup_xml(const Json& a, const Json& check, const std::string& topi
                         xml_escape(description_of(check)), viewpoint);
 }
 
-bool has_guids(const Json& a) {
-  const auto any = [](const Json& rows) {
+bool has_guids(const AssessmentRecord& a) {
+  const auto any = [](const auto& rows) {
     return std::any_of(rows.begin(), rows.end(),
-                       [](const Json& row) { return !text_in(row, "ifc_guid").empty(); });
+                       [](const auto& row) { return !row.ifc_guid.empty(); });
   };
-  return any(a["luminaires"]) || any(a["signs"]) || any(a["places"]["areas"]);
+  return any(a.luminaires) || any(a.signs) || any(a.places.areas);
 }
 
 }  // namespace
 
-std::optional<std::string> bcf_issues(const Json& assessment) {
+std::optional<std::string> bcf_issues(const AssessmentRecord& assessment) {
   if (!has_guids(assessment)) return std::nullopt;
   std::vector<std::pair<std::string, std::string>> files{
       {"bcf.version", std::string(xml_head) +
                           "<Version VersionId=\"2.1\"><DetailedVersion>2.1</DetailedVersion>"
                           "</Version>\n"}};
   size_t index = 0;
-  for (const Json& check : assessment["checks"]) {
-    if (text_in(check, "verdict") != "fail" || index >= limits::bcf_issues) continue;
-    const std::string key = text_in(assessment["scene"], "name") + "\n" +
-                            text_in(check, "rule_set") + "\n" + title_of(check) + "\n" +
-                            english_in(check, "conditions");
+  for (const Check& check : assessment.checks) {
+    if (check.verdict != CheckVerdict::fail || index >= limits::bcf_issues) continue;
+    const std::string key = assessment.scene.name + "\n" + check.rule.set + "\n" + title_of(check) +
+                            "\n" + english().remarks(check.conditions);
     const std::string topic = uuid_of("topic\n" + key), viewpoint = uuid_of("viewpoint\n" + key);
     const std::string folder = topic + "/";
     if (std::any_of(files.begin(), files.end(),

@@ -1,12 +1,12 @@
 // Failed checks of an assessment as issues in the BIM Collaboration Format 2.1 of buildingSMART: a
-// topic, a camera and the GlobalIds of the things that are meant, for each. Reads the JSON of the
-// assessment. Pure function; any thread.
+// topic, a camera and the GlobalIds of the things that are meant, for each. Pure function; any
+// thread.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "actors/results/formats/json_out.hpp"
+#include "actors/judge/record/assessment_record.hpp"
 
 namespace luxodus {
 
@@ -16,6 +16,6 @@ inline constexpr size_t bcf_issues = 5'000;
 }  // namespace limits
 
 /// The bytes of a .bcf file. None if nothing of the scene has a GlobalId, or no check fails.
-std::optional<std::string> bcf_issues(const Json& assessment);
+std::optional<std::string> bcf_issues(const AssessmentRecord& assessment);
 
 }  // namespace luxodus

@@ -1,6 +1,6 @@
 #include "actors/judge/assess/check_words.hpp"
 
-#include "actors/judge/texts/remark_json.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
@@ -13,23 +13,22 @@ std::string unit_words(const std::string& unit) {
   return " " + unit;
 }
 
-std::string value_words(const Json& check) {
-  const Json value = check.value("value", Json());
-  if (value.is_number())
-    return readable_number(value.get<double>()) + unit_words(text_in(check, "unit"));
-  const std::string reason = english_in(check, "reasons");
+std::string value_words(const Check& check) {
+  if (check.value) return readable_number(*check.value) + unit_words(check.unit);
+  const std::string reason = english().remarks(check.reasons);
   return reason.empty() ? "no value" : reason;
 }
 
 }  // namespace
 
-std::string check_words(const Json& check) {
-  std::string text =
-      english_in(check, "subject") + ": " + text_in(check, "title") + ": " + value_words(check);
-  if (const Json limit = check.value("limit", Json()); limit.is_number())
-    text += ", " + text_in(check, "sense") + " " + readable_number(limit.get<double>());
-  const std::string condition = english_in(check, "conditions");
-  return text + " (" + text_in(check, "rule") + (condition.empty() ? "" : ", ") + condition + ")";
+std::string check_words(const Check& check) {
+  const std::string rule(name_of(check.rule.id)), condition = english().remarks(check.conditions);
+  std::string text = english().subject(check.subject) + ": " + english().rule_title(rule) + ": " +
+                     value_words(check);
+  if (check.limit)
+    text +=
+        std::string(check.at_least ? ", at least " : ", at most ") + readable_number(*check.limit);
+  return text + " (" + rule + (condition.empty() ? "" : ", ") + condition + ")";
 }
 
 }  // namespace luxodus

@@ -160,7 +160,8 @@ void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
     for (int row = 0; row < map.rows; ++row)
       for (int column = 0; column < map.columns; ++column)
         grid.emplace_back(map.corner + glm::dvec2(column, row) * map.spacing_m, levels[i].floor_m);
-    for (const LitPoint& p : light_.lit(grid, up, floor_plane_m)) map.lux.push_back(sum_of(p.lux));
+    for (const LitPoint& p : light_.lit(grid, up, floor_plane_m))
+      map.lux.push_back(drawn_lux(sum_of(p.lux)));
   }
 }
 

@@ -1,12 +1,11 @@
-// Compares two assessments: what newly passes or fails, and which values differ significantly.
+#include "actors/judge/assess/compare.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <map>
 
-#include "actors/judge/assess/assessment_json.hpp"
 #include "actors/judge/assess/state_words.hpp"
-#include "actors/judge/texts/remark_json.hpp"
 
 namespace luxodus {
 
@@ -16,148 +15,137 @@ namespace {
 /// a share.
 constexpr double different_errors = 3, different_share = 1e-6;
 
-using Key = std::string;
-
 /// The edition is part of the key: two rule sets have a check each of the same rule.
-Key check_key(const Json& check) {
-  return fmt::format("{} ({}) {} {}", check["rule"].get<std::string>(),
-                     check["edition"].get<std::string>(), english_in(check, "subject"),
-                     english_in(check, "conditions"));
+std::string key_of(const CheckRecord& check) {
+  return fmt::format("{} ({}) {} {}", name_of(check.rule.id), check.rule.edition,
+                     english().subject(check.subject), english().remarks(check.conditions));
 }
 
-Key sight_key(const Json& sight) {
-  return fmt::format("{}, {:.2f} m along, eye {:.2f} m, sign \"{}\"{}", english_in(sight, "from"),
-                     sight["along"]["value"].get<double>(),
-                     sight["eye_height"]["value"].get<double>(), sight["sign"].get<std::string>(),
-                     sight["back_face"].get<bool>() ? " (back)" : "");
+std::string key_of(const SightRecord& sight) {
+  return fmt::format("{}, {:.2f} m along, eye {:.2f} m, sign \"{}\"{}",
+                     english().subject(sight.from), sight.along_m, sight.eye_height_m, sight.sign,
+                     sight.back_face ? " (back)" : "");
 }
 
-std::map<Key, const Json*> by_key(const Json& rows, Key (*key_of)(const Json&)) {
-  std::map<Key, const Json*> out;
-  for (const Json& row : rows) out.emplace(key_of(row), &row);
+template <class Row>
+std::map<std::string, const Row*> by_key(const std::vector<Row>& rows) {
+  std::map<std::string, const Row*> out;
+  for (const Row& row : rows) out.emplace(key_of(row), &row);
   return out;
 }
 
-/// Verdicts that differ; a row may be in one of the two only.
-Json changed_verdicts(const Json& before, const Json& after, Key (*key_of)(const Json&)) {
-  const auto old_rows = by_key(before, key_of), new_rows = by_key(after, key_of);
-  Json out = Json::array();
-  const auto verdict = [](const auto& rows, const Key& key) -> Json {
-    const auto at = rows.find(key);
-    return at == rows.end() ? Json() : (*at->second)["verdict"];
+/// Words that differ; either side may lack some.
+std::vector<ChangedWords> changed_words(const std::map<std::string, std::string>& before,
+                                        const std::map<std::string, std::string>& after) {
+  std::vector<ChangedWords> out;
+  const auto words_in = [](const auto& words, const std::string& key) {
+    const auto at = words.find(key);
+    return at == words.end() ? std::nullopt : std::optional(at->second);
   };
-  for (const auto& [key, row] : old_rows)
-    if (const Json now = verdict(new_rows, key); now != (*row)["verdict"])
-      out.push_back({{"what", key}, {"before", (*row)["verdict"]}, {"after", now}});
-  for (const auto& [key, row] : new_rows)
-    if (!old_rows.contains(key))
-      out.push_back({{"what", key}, {"before", Json()}, {"after", (*row)["verdict"]}});
+  for (const auto& [key, words] : before)
+    if (auto now = words_in(after, key); now != words) out.push_back({key, words, std::move(now)});
+  for (const auto& [key, words] : after)
+    if (!before.contains(key)) out.push_back({key, std::nullopt, words});
   return out;
 }
 
-Json changed_values(const Json& before, const Json& after) {
-  const auto old_rows = by_key(before, check_key);
-  Json out = Json::array();
-  for (const Json& row : after) {
-    const auto at = old_rows.find(check_key(row));
-    if (at == old_rows.end() || !row["value"].is_number() || !(*at->second)["value"].is_number())
-      continue;
-    const double was = (*at->second)["value"].get<double>(), is = row["value"].get<double>();
-    if (std::abs(is - was) <= different_share * std::max(std::abs(is), std::abs(was))) continue;
-    out.push_back(
-        {{"what", check_key(row)}, {"before", was}, {"after", is}, {"unit", row["unit"]}});
-  }
-  return out;
-}
-
-/// Visibility levels that differ significantly.
-Json changed_levels(const Json& before, const Json& after) {
-  const auto old_rows = by_key(before, sight_key);
-  Json out = Json::array();
-  for (const Json& row : after) {
-    const auto at = old_rows.find(sight_key(row));
-    if (at == old_rows.end() || !row.contains("reading_level") ||
-        !at->second->contains("reading_level"))
-      continue;
-    const Json &was = (*at->second)["reading_level"], &is = row["reading_level"];
-    if (!was["standard_error"].is_number() || !is["standard_error"].is_number()) continue;
-    const double error =
-        std::hypot(was["standard_error"].get<double>(), is["standard_error"].get<double>());
-    const double change = is["value"].get<double>() - was["value"].get<double>();
-    if (!(error > 0) || std::abs(change) < different_errors * error) continue;
-    out.push_back({{"what", sight_key(row)},
-                   {"before", was["value"]},
-                   {"after", is["value"]},
-                   {"standard_errors", change / error}});
-  }
-  return out;
-}
-
-/// A verdict or value; `where` says in which assessment it is missing.
-std::string shown(const Json& value, const char* where) {
-  if (value.is_null()) return std::string("not assessed ") + where;
-  return value.is_string() ? value.get<std::string>() : fmt::format("{:.4g}", value.get<double>());
-}
-
-/// Differences of judged states and of verdicts on the whole. The place of a medium in its file
-/// does not count.
-Json changed_state(const Json& before, const Json& after) {
-  const auto rows_of = [](Json assessment) {
-    if (Json* const media = assessment.at_path("state/smoke/media"))
-      for (Json& medium : *media) {
-        medium.erase("place");
-        medium.erase("notes");
-      }
+template <class Row>
+std::vector<ChangedWords> changed_verdicts(const std::vector<Row>& before,
+                                           const std::vector<Row>& after) {
+  const auto verdicts = [](const std::vector<Row>& rows) {
     std::map<std::string, std::string> out;
-    for (const auto& [what, words] : state_rows(assessment))
-      if (!what.empty() && what != "not assessed") out[what] = words;
-    out["verdict"] = verdict_words(assessment);
+    for (const Row& row : rows) out.emplace(key_of(row), name_of(row.verdict));
     return out;
   };
-  const auto was = rows_of(before), is = rows_of(after);
-  Json out = Json::array();
-  const auto add = [&](const std::string& what) {
-    const auto a = was.find(what), b = is.find(what);
-    const Json old_words = a == was.end() ? Json() : Json(a->second);
-    const Json new_words = b == is.end() ? Json() : Json(b->second);
-    if (old_words != new_words)
-      out.push_back({{"what", what}, {"before", old_words}, {"after", new_words}});
-  };
-  for (const auto& [what, words] : was) add(what);
-  for (const auto& [what, words] : is)
-    if (!was.contains(what)) add(what);
+  return changed_words(verdicts(before), verdicts(after));
+}
+
+std::vector<ChangedNumber> changed_values(const std::vector<CheckRecord>& before,
+                                          const std::vector<CheckRecord>& after) {
+  const auto old_rows = by_key(before);
+  std::vector<ChangedNumber> out;
+  for (const CheckRecord& row : after) {
+    const auto at = old_rows.find(key_of(row));
+    if (at == old_rows.end() || !row.value || !at->second->value) continue;
+    const double was = *at->second->value, is = *row.value;
+    if (std::abs(is - was) <= different_share * std::max(std::abs(is), std::abs(was))) continue;
+    out.push_back({at->first, was, is, row.unit, std::nullopt});
+  }
   return out;
+}
+
+std::vector<ChangedNumber> changed_levels(const std::vector<SightRecord>& before,
+                                          const std::vector<SightRecord>& after) {
+  const auto old_rows = by_key(before);
+  std::vector<ChangedNumber> out;
+  for (const SightRecord& row : after) {
+    const auto at = old_rows.find(key_of(row));
+    if (at == old_rows.end() || !row.seen || !at->second->seen) continue;
+    const Uncertain& was = at->second->seen->look.reading_level;
+    const Uncertain& is = row.seen->look.reading_level;
+    const double error = std::hypot(was.error, is.error), change = is.value - was.value;
+    if (!(error > 0 && std::isfinite(error)) || !(std::abs(change) >= different_errors * error))
+      continue;
+    out.push_back({at->first, was.value, is.value, std::nullopt, change / error});
+  }
+  return out;
+}
+
+/// What is said of the judged state and of all checks. The place of a medium in its file does not
+/// count.
+std::map<std::string, std::string> said_of(AssessmentRecord assessment) {
+  if (assessment.state.smoke)
+    for (StatedMedium& medium : assessment.state.smoke->media) {
+      medium.place.clear();
+      medium.notes.clear();
+    }
+  std::map<std::string, std::string> out;
+  for (const auto& [what, words] : state_rows(assessment))
+    if (!what.empty() && what != "not assessed") out[what] = words;
+  out["verdict"] = assessment.verdict.words;
+  return out;
+}
+
+std::string shown(const std::optional<std::string>& words, const char* where) {
+  return words ? *words : std::string("not assessed ") + where;
 }
 
 }  // namespace
 
-Json comparison_of(const Json& before, const Json& after) {
-  return {{"state", changed_state(before, after)},
-          {"checks", changed_verdicts(before["checks"], after["checks"], check_key)},
-          {"values", changed_values(before["checks"], after["checks"])},
-          {"sights", changed_verdicts(before["sights"], after["sights"], sight_key)},
-          {"levels", changed_levels(before["sights"], after["sights"])}};
+Comparison comparison_of(const AssessmentRecord& before, const AssessmentRecord& after) {
+  return {
+      changed_words(said_of(before), said_of(after)), changed_verdicts(before.checks, after.checks),
+      changed_values(before.checks, after.checks), changed_verdicts(before.sights, after.sights),
+      changed_levels(before.sights, after.sights)};
 }
 
-std::string comparison_text(const Json& comparison) {
+Json comparison_json(const Comparison& comparison) {
+  return json_of(comparison);
+}
+
+std::string comparison_text(const Comparison& comparison) {
   std::string out;
-  const auto part = [&](const char* key, const char* title) {
-    const Json& rows = comparison[key];
+  const auto words = [&](const std::vector<ChangedWords>& rows, const char* title) {
     out += fmt::format("{}: {}\n", title, rows.size());
-    for (const Json& row : rows) {
-      out += fmt::format("  {}: {} -> {}", row["what"].get<std::string>(),
-                         shown(row["before"], "before"), shown(row["after"], "after"));
-      if (row.contains("unit") && row["unit"] != "1") out += " " + row["unit"].get<std::string>();
-      if (row.contains("standard_errors"))
-        out += fmt::format(" ({:+.1f} standard errors)", row["standard_errors"].get<double>());
+    for (const ChangedWords& row : rows)
+      out += fmt::format("  {}: {} -> {}\n", row.what, shown(row.before, "before"),
+                         shown(row.after, "after"));
+  };
+  const auto numbers = [&](const std::vector<ChangedNumber>& rows, const char* title) {
+    out += fmt::format("{}: {}\n", title, rows.size());
+    for (const ChangedNumber& row : rows) {
+      out += fmt::format("  {}: {:.4g} -> {:.4g}", row.what, row.before, row.after);
+      if (row.unit && *row.unit != "1") out += " " + *row.unit;
+      if (row.standard_errors)
+        out += fmt::format(" ({:+.1f} standard errors)", *row.standard_errors);
       out += "\n";
     }
   };
-  part("state", "what is said of the judged state, and of all checks, differently");
-  part("checks", "checks whose verdict changed");
-  part("values", "values of checks that changed");
-  part("sights", "views of signs whose verdict changed");
-  part("levels", "visibility levels that changed by three standard errors or more");
+  words(comparison.state, "what is said of the judged state, and of all checks, differently");
+  words(comparison.checks, "checks whose verdict changed");
+  numbers(comparison.values, "values of checks that changed");
+  words(comparison.sights, "views of signs whose verdict changed");
+  numbers(comparison.levels, "visibility levels that changed by three standard errors or more");
   return out;
 }
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/judge/texts/remark_json.hpp"
-#include "scenes/emergency/legibility.hpp"
+#include "actors/judge/texts/texts.hpp"
 
 namespace luxodus {
 
@@ -22,81 +21,76 @@ struct ModelThing {
   std::string guid, kind, name;
 };
 
-std::string guid_of(const Json& row) {
-  const Json guid = row.value("ifc_guid", Json());
-  return guid.is_string() ? guid.get<std::string>() : std::string();
-}
-
 /// Things with a GlobalId by their subject in checks, ordered by name.
-std::map<std::pair<std::string, std::string>, ModelThing> things_by_subject(const Json& a) {
-  std::map<std::pair<std::string, std::string>, ModelThing> out;
-  const auto add = [&](const Json& rows, SubjectKind subject, const char* kind) {
-    for (const Json& row : rows) {
-      const std::string name = row["name"].get<std::string>();
-      if (const std::string guid = guid_of(row); !guid.empty())
-        out[{std::string(name_of(subject)), name}] = {guid, kind, name};
-    }
+std::map<std::pair<std::string_view, std::string>, ModelThing> things_by_subject(
+    const AssessmentRecord& a) {
+  std::map<std::pair<std::string_view, std::string>, ModelThing> out;
+  const auto add = [&](const auto& row, SubjectKind subject, const char* kind) {
+    if (!row.ifc_guid.empty()) out[{name_of(subject), row.name}] = {row.ifc_guid, kind, row.name};
   };
-  add(a["luminaires"], SubjectKind::luminaire, "luminaire");
-  add(a["signs"], SubjectKind::sign, "sign");
-  for (const Json& area : a["places"]["areas"])
-    add(Json::array({area}),
-        area["kind"] == "task" ? SubjectKind::task_area : SubjectKind::open_area, "space");
+  for (const LuminaireRecord& one : a.luminaires) add(one, SubjectKind::luminaire, "luminaire");
+  for (const SignRecord& one : a.signs) add(one, SubjectKind::sign, "sign");
+  for (const AreaRecord& area : a.places.areas)
+    add(area, area.is_task ? SubjectKind::task_area : SubjectKind::open_area, "space");
   return out;
 }
 
-void begin_row(CsvTable& table, const ModelThing& thing) {
-  table.cell(thing.guid).cell(thing.kind).cell(thing.name);
+/// A cell that is empty where there are no words.
+void put(CsvTable& table, std::string_view words) {
+  if (words.empty())
+    table.empty_cell();
+  else
+    table.cell(words);
 }
 
-/// A cell of a check; empty if the check has no such value.
-void put_value(CsvTable& table, const Json& check, const char* key) {
-  const Json value = check.value(key, Json());
-  const std::string words = english_in(check, key);
-  if (!words.empty())
-    table.cell(words);
-  else if (value.is_number())
-    table.cell(value.get<double>());
-  else if (value.is_string() && !value.get<std::string>().empty())
-    table.cell(value.get<std::string>());
+void put(CsvTable& table, const std::optional<double>& value) {
+  if (value)
+    table.cell(*value);
   else
     table.empty_cell();
 }
 
-void put_check(CsvTable& table, const ModelThing& thing, const Json& check) {
-  begin_row(table, thing);
-  for (const char* key : {"rule_set", "rule", "edition", "clause", "title", "conditions", "value",
-                          "unit", "sense", "limit", "verdict", "reasons"})
-    put_value(table, check, key);
+void put(CsvTable& table, std::initializer_list<std::string_view> all) {
+  for (const std::string_view words : all) put(table, words);
+}
+
+void put_check(CsvTable& table, const ModelThing& thing, const Check& check) {
+  const Texts t = english();
+  table.cell(thing.guid).cell(thing.kind).cell(thing.name);
+  put(table, {check.rule.set, name_of(check.rule.id), check.rule.edition, t.clause(check.rule),
+              t.rule_title(name_of(check.rule.id)), t.remarks(check.conditions)});
+  put(table, check.value);
+  put(table, {check.unit, check.at_least ? "at least" : "at most"});
+  put(table, check.limit);
+  put(table, {name_of(check.verdict), t.remarks(check.reasons)});
   table.end_row();
 }
 
 /// A row of a value that no rule judges.
-void put_information(CsvTable& table, const ModelThing& thing, const std::string& title,
-                     double value, const std::string& unit, const std::string& reason) {
-  put_check(table, thing,
-            {{"title", title},
-             {"value", value},
-             {"unit", unit},
-             {"verdict", "information"},
-             {"reasons", reason}});
+void put_information(CsvTable& table, const ModelThing& thing, std::string_view title, double value,
+                     const std::string& unit, const std::string& reason) {
+  table.cell(thing.guid).cell(thing.kind).cell(thing.name);
+  put(table, {"", "", "", "", title, ""});
+  put(table, value);
+  put(table, {unit, "", "", "information", reason});
+  table.end_row();
 }
 
-void put_flux(CsvTable& table, const ModelThing& thing, const Json& luminaires) {
-  for (const Json& luminaire : luminaires)
-    if (guid_of(luminaire) == thing.guid && luminaire["name"] == thing.name)
-      put_information(table, thing, "emergency flux",
-                      luminaire["emergency_flux"]["value"].get<double>(),
-                      luminaire["emergency_flux"]["unit"].get<std::string>(), "");
+void put_flux(CsvTable& table, const ModelThing& thing,
+              const std::vector<LuminaireRecord>& luminaires) {
+  for (const LuminaireRecord& one : luminaires)
+    if (one.ifc_guid == thing.guid && one.name == thing.name)
+      put_information(table, thing, "emergency flux", one.emergency_flux.value,
+                      one.emergency_flux.unit, "");
 }
 
-void put_views(CsvTable& table, const ModelThing& thing, const Json& sights) {
+void put_views(CsvTable& table, const ModelThing& thing, const std::vector<SightRecord>& sights) {
   std::map<std::string, int> verdicts;
   int views = 0;
-  for (const Json& sight : sights) {
-    if (sight["sign"] != thing.name) continue;
+  for (const SightRecord& sight : sights) {
+    if (sight.sign != thing.name) continue;
     ++views;
-    ++verdicts[sight["verdict"].get<std::string>()];
+    ++verdicts[name_of(sight.verdict)];
   }
   if (views == 0) return;
   std::string words;
@@ -121,31 +115,32 @@ class PropertyRows {
  public:
   PropertyRows(CsvTable& table, const ModelThing& thing) : table_(table), thing_(thing) {}
 
-  void add(const std::string& set, const std::string& property, const Json& value,
-           const std::string& unit) {
+  void add(const std::string& set, const std::string& property, const Quantity& value) {
+    begin(set, property);
+    table_.cell(value.value).cell(measure_of(value.unit)).cell(value.unit).end_row();
+  }
+
+  void add_check(const Check& check) {
+    const Texts t = english();
+    const std::string set = "Luxodus_" + check.rule.set;
+    const std::string conditions = t.remarks(check.conditions);
+    const std::string rule(name_of(check.rule.id));
+    const std::string name =
+        rule + " " + t.rule_title(rule) + (conditions.empty() ? "" : ", " + conditions);
+    if (check.value) add(set, name + ": value", {*check.value, check.unit});
+    if (check.limit) add(set, name + ": limit", {*check.limit, check.unit});
+    begin(set, name + ": verdict");
+    table_.cell(name_of(check.verdict)).cell("IfcLabel").cell("").end_row();
+  }
+
+ private:
+  void begin(const std::string& set, const std::string& property) {
     std::string name = property;
     for (int i = 2; !taken_.insert(set + "\n" + name).second; ++i)
       name = fmt::format("{} ({})", property, i);
     table_.cell(thing_.guid).cell(set).cell(name);
-    if (value.is_number())
-      table_.cell(value.get<double>()).cell(measure_of(unit)).cell(unit);
-    else
-      table_.cell(value.get<std::string>()).cell("IfcLabel").cell("");
-    table_.end_row();
   }
 
-  void add_check(const Json& check) {
-    const std::string set = "Luxodus_" + text_in(check, "rule_set");
-    const std::string conditions = english_in(check, "conditions");
-    const std::string name = text_in(check, "rule") + " " + text_in(check, "title") +
-                             (conditions.empty() ? "" : ", " + conditions);
-    for (const char* key : {"value", "limit"})
-      if (const Json number = check.value(key, Json()); number.is_number())
-        add(set, name + ": " + key, number, text_in(check, "unit"));
-    add(set, name + ": verdict", text_in(check, "verdict"), "");
-  }
-
- private:
   CsvTable& table_;
   const ModelThing& thing_;
   std::set<std::string> taken_;
@@ -153,34 +148,33 @@ class PropertyRows {
 
 }  // namespace
 
-std::optional<CsvTable> results_by_guid(const Json& assessment) {
+std::optional<CsvTable> results_by_guid(const AssessmentRecord& assessment) {
   const auto things = things_by_subject(assessment);
   if (things.empty()) return std::nullopt;
   CsvTable table(guid_columns);
   for (const auto& [subject, thing] : things) {
-    for (const Json& check : assessment["checks"])
-      if (check["subject"]["kind"] == subject.first && check["subject"]["name"] == subject.second)
+    for (const Check& check : assessment.checks)
+      if (name_of(check.subject.kind) == subject.first && check.subject.name == subject.second)
         put_check(table, thing, check);
-    if (thing.kind == "luminaire") put_flux(table, thing, assessment["luminaires"]);
-    if (thing.kind == "sign") put_views(table, thing, assessment["sights"]);
+    if (thing.kind == "luminaire") put_flux(table, thing, assessment.luminaires);
+    if (thing.kind == "sign") put_views(table, thing, assessment.sights);
   }
   return table;
 }
 
-std::optional<CsvTable> property_sets_by_guid(const Json& assessment) {
+std::optional<CsvTable> property_sets_by_guid(const AssessmentRecord& assessment) {
   const auto things = things_by_subject(assessment);
   if (things.empty()) return std::nullopt;
   CsvTable table({"GlobalId", "PropertySet", "Property", "Value", "ValueType", "Unit"});
   for (const auto& [subject, thing] : things) {
     PropertyRows rows(table, thing);
-    for (const Json& check : assessment["checks"])
-      if (check["subject"]["kind"] == subject.first && check["subject"]["name"] == subject.second)
+    for (const Check& check : assessment.checks)
+      if (name_of(check.subject.kind) == subject.first && check.subject.name == subject.second)
         rows.add_check(check);
     if (thing.kind != "luminaire") continue;
-    for (const Json& luminaire : assessment["luminaires"])
-      if (guid_of(luminaire) == thing.guid && luminaire["name"] == thing.name)
-        rows.add("Luxodus_EmergencyLighting", "EmergencyFlux", luminaire["emergency_flux"]["value"],
-                 text_in(luminaire["emergency_flux"], "unit"));
+    for (const LuminaireRecord& luminaire : assessment.luminaires)
+      if (luminaire.ifc_guid == thing.guid && luminaire.name == thing.name)
+        rows.add("Luxodus_EmergencyLighting", "EmergencyFlux", luminaire.emergency_flux);
   }
   return table;
 }

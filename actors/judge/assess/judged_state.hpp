@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/judge/record/assessment_record.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/emergency/rule_sets.hpp"
 #include "scenes/light/world/description.hpp"
@@ -17,16 +18,6 @@ namespace luxodus {
 inline constexpr double adapted_after_s = 60;
 /// Wavelength of stated extinctions [nm], as in most measurements.
 inline constexpr double stated_nm = 633;
-
-/// Range of the extinction of a medium at stated_nm, with the factors of the scenario [1/m]; of a
-/// data set in the building, from the lowest eye to the highest sign or eye.
-struct StatedMedium {
-  std::string name;
-  std::string kind;   // "layered", "flame"
-  std::string place;  // "office.toml:22"
-  Remarks notes;      // such as 6 layers, times 0.5 in this scenario
-  double extinction_min = 0, extinction_max = 0;
-};
 
 /// The judged state, which is printed before any verdict.
 struct AssessedState {

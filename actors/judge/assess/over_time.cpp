@@ -120,11 +120,13 @@ Result<void> StateOfTime::trace(const std::atomic<bool>& interrupt, const Assess
     low = std::min(low, mean_albedo(optics));
     high = std::max(high, mean_albedo(optics));
   });
-  out.low_albedo = out.high_albedo == 0 ? low : std::min(out.low_albedo, low);
-  out.high_albedo = std::max(out.high_albedo, high);
+  out.holds_for.low_albedo =
+      out.holds_for.high_albedo == 0 ? low : std::min(out.holds_for.low_albedo, low);
+  out.holds_for.high_albedo = std::max(out.holds_for.high_albedo, high);
   for (const Medium& medium : scene_->media)
     if (medium.simulation)
-      out.depth_error = std::max(out.depth_error, medium.simulation->depth_error);
+      out.holds_for.depth_error =
+          std::max(out.holds_for.depth_error, medium.simulation->depth_error);
   const double left = (1 - first_share) / 2;
   for (const auto& [albedo, begun] : {std::pair{low, first_share}, {high, first_share + left}})
     if (auto ok = try_albedo(albedo, interrupt,
@@ -286,7 +288,7 @@ Result<OverTime> assess_over_time(const std::vector<double>& times_s, const Scen
   if (out.walking_speed_m_s)
     for (RouteOverTime& route : out.routes)
       for (const double start : times_s)
-        route.walks.push_back(walk(route.guided, start, *out.walking_speed_m_s));
+        route.walks.push_back({walk(route.guided, start, *out.walking_speed_m_s)});
   progress("all states", 1);
   return out;
 }

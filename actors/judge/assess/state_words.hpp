@@ -1,44 +1,29 @@
-// The judged state, the verdict on the whole and what was not assessed, in English for a terminal
-// and as JSON. Texts are made from assessment.json alone. Reports have their own texts in several
+// The judged state, the verdict on the whole and what was not assessed, in English for a terminal.
+// Texts are made from the record of an assessment alone. Reports have their own texts in several
 // languages (actors/judge/report). Pure functions; any thread.
 #pragma once
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "actors/judge/assess/judged_state.hpp"
-#include "actors/results/formats/json_out.hpp"
-#include "scenes/emergency/check.hpp"
+#include "actors/judge/record/assessment_record.hpp"
 
 namespace luxodus {
 
-/// "state" of assessment.json.
-Json state_json(const AssessedState& state);
-
-/// "verdict" of assessment.json: {"first", "words", "pass", "fail", "not_assessed",
-/// "not_verified"}. `first` is the sentence that every output shows first: the judged state, the
-/// rules, and counts of checks and views.
-Json verdict_json(const AssessedState& state, const CheckCounts& counts,
-                  const std::map<std::string, size_t>& sights);
-
-/// "first" of the verdict; for an assessment without it, the verdict's words.
-std::string first_words(const Json& assessment);
+/// The sentence that every output shows first: the judged state, the rules, the verdict on all
+/// checks in words, and counts of views. Requires: the state and the counts are recorded.
+std::string first_sentence(const AssessmentRecord& assessment, const std::string& verdict);
 
 /// Name and text of a row: ("operation", "emergency, 600 s after the failure of the mains"). The
-/// name is "" if the row continues the one before. An old assessment without "state" gives one row
-/// that says so.
+/// name is "" if the row continues the one before.
 using StateRow = std::pair<std::string, std::string>;
-std::vector<StateRow> state_rows(const Json& assessment);
+std::vector<StateRow> state_rows(const AssessmentRecord& assessment);
 
 /// The rows and then the remarks, one per line, for a terminal.
-std::string state_text(const Json& assessment);
-
-/// Verdict on all checks; for an assessment without one, from its counts.
-std::string verdict_words(const Json& assessment);
+std::string state_text(const AssessmentRecord& assessment);
 
 /// Whether a check fails, or a check or a view is not assessed, not verified or undecided.
-bool anything_open(const Json& assessment);
+bool anything_open(const AssessmentRecord& assessment);
 
 }  // namespace luxodus

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "actors/judge/report/html.hpp"
+#include "actors/judge/design/json_cells.hpp"
 
 namespace luxodus {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/record_assessment.hpp"
 #include "actors/judge/design/binding_words.hpp"
 #include "actors/judge/design/design_page.hpp"
 #include "actors/judge/design/sign_files.hpp"
@@ -133,7 +133,7 @@ Json tolerance_json(const PlaceTolerance& tolerance) {
           {"demands", std::move(demands)}};
 }
 
-Result<void> write_plans(const fs::path& folder, const Json& a, Language language) {
+Result<void> write_plans(const fs::path& folder, const AssessmentRecord& a, Language language) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return system_problem(folder, "cannot make this folder", failed.value());
@@ -518,7 +518,7 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
                           const DesignResult& result, Language language,
                           const std::string& version) {
   const Json json = design_json(scene, result, version);
-  const Json assessed = assessment_json(*result.variant, result.assessment, version);
+  const AssessmentRecord assessed = record_of(*result.variant, result.assessment, version);
   if (auto ok = write_plans(folder / "plans", assessed, language); !ok) return ok.problem();
   if (auto ok = write_csv(folder / "luminaires.csv", schedule_csv(result)); !ok)
     return ok.problem();

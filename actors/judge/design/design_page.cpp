@@ -7,6 +7,7 @@
 
 #include "actors/judge/design/binding_words.hpp"
 #include "actors/judge/design/design_files.hpp"
+#include "actors/judge/design/json_cells.hpp"
 #include "actors/judge/design/smoke_section.hpp"
 #include "actors/judge/report/html.hpp"
 #include "actors/judge/report/page_style.hpp"
@@ -69,7 +70,7 @@ std::string notice(const Texts& t, bool in_smoke) {
   return out + "</ul></div>\n";
 }
 
-std::string plans_of(const Texts& t, const Json& a, const Schedule& schedule) {
+std::string plans_of(const Texts& t, const AssessmentRecord& a, const Schedule& schedule) {
   const Plans plans(a, schedule, t, {});
   std::string out;
   for (size_t i = 0; i < schedule.levels(); ++i) {
@@ -262,7 +263,7 @@ std::string settings(const Texts& t, const Json& d) {
 
 }  // namespace
 
-std::string design_page(const Json& d, const Json& a, const std::vector<LayoutPlan>& plans,
+std::string design_page(const Json& d, const AssessmentRecord& a, const std::vector<LayoutPlan>& plans,
                         Language language) {
   const Texts t(language);
   const Schedule schedule(a);

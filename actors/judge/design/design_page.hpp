@@ -11,7 +11,7 @@
 
 namespace luxodus {
 
-std::string design_page(const Json& design, const Json& assessment,
+std::string design_page(const Json& design, const AssessmentRecord& assessment,
                         const std::vector<LayoutPlan>& plans, Language language);
 
 }  // namespace luxodus

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/record_assessment.hpp"
 #include "actors/judge/design/design.hpp"
 #include "actors/judge/report/html.hpp"
 #include "actors/judge/report/plan_svg.hpp"
@@ -33,7 +33,7 @@ std::vector<LayoutPlan> layout_plans(const DesignResult& result, const std::stri
   if (!result.smoke) return out;
   for (const JudgedLayout& one : result.smoke->layouts)
     if (one.has_usual_signs())
-      out.push_back({one.name, assessment_json(*one.layout.variant, result.assessment, version)});
+      out.push_back({one.name, record_of(*one.layout.variant, result.assessment, version)});
   if (out.size() < 2) out.clear();
   return out;
 }

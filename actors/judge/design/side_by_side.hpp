@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/judge/record/assessment_record.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/json_out.hpp"
 
@@ -11,11 +12,11 @@ namespace luxodus {
 
 struct DesignResult;
 
-/// A layout with the assessment JSON for its plan: its own luminaires, and the building and symbols
+/// A layout with the record of an assessment for its plan: its own luminaires, and the building and symbols
 /// of the first layout.
 struct LayoutPlan {
   std::string name;
-  Json drawn;
+  AssessmentRecord drawn;
 };
 
 /// Plans of layouts with unchanged signs; empty if only the first layout was judged.

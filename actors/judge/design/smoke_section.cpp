@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actors/judge/report/html.hpp"
+#include "actors/judge/design/json_cells.hpp"
 #include "actors/results/formats/svg_plot.hpp"
 
 namespace luxodus {

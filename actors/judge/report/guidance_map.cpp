@@ -13,37 +13,29 @@ namespace {
 
 /// Colours differ in lightness too, for black-and-white prints.
 struct Look {
-  char letter;
   const char* colour;
   const char* text;  // key
 };
-constexpr std::array<Look, 3> looks{{{'g', "#2f8f5b", "guided.guided"},
-                                     {'u', "#e0b23a", "guided.undecided"},
-                                     {'n', "#4a2a33", "guided.not_guided"}}};
+/// In the order of Guidance, from good to bad.
+constexpr std::array<Look, 3> looks{{{"#2f8f5b", "guided.guided"},
+                                     {"#e0b23a", "guided.undecided"},
+                                     {"#4a2a33", "guided.not_guided"}}};
 constexpr double left_mm = 16, right_mm = 4, top_mm = 4, foot_mm = 20;
 constexpr double drawing_mm = 62;  // height of the drawing
 constexpr double line_mm = 0.2;
 
-double value_of(const Json& measured) {
-  return measured["value"].get<double>();
-}
-
-const Look& worse(char a, char b) {
-  const auto rank = [](char letter) {
-    const auto at = std::find_if(looks.begin(), looks.end(),
-                                 [&](const Look& look) { return look.letter == letter; });
-    return std::min(at, looks.end() - 1);
-  };
-  return *std::max(rank(a), rank(b));
+const Look& worse(Guidance a, Guidance b) {
+  return looks[static_cast<size_t>(std::max(a, b))];
 }
 
 /// Converts metres and seconds to millimetres of paper.
 class MapFrame {
  public:
-  MapFrame(const Json& over, const Json& route, double width_mm)
-      : length_m_(value_of(route["length"])), width_mm_(width_mm - left_mm - right_mm) {
-    for (const Json& state : over["states"]) times_.push_back(value_of(state["at"]));
-    for (const Json& place : route["places"]) places_.push_back(place.get<double>());
+  MapFrame(const OverTime& over, const RouteOverTime& route, double width_mm)
+      : length_m_(route.guided.length_m),
+        width_mm_(width_mm - left_mm - right_mm),
+        places_(route.guided.along_m) {
+    for (const TimedState& state : over.states) times_.push_back(state.at_s);
     places_.push_back(length_m_);
   }
   double x(double metres) const { return left_mm + width_mm_ * metres / std::max(length_m_, 1e-9); }
@@ -78,7 +70,7 @@ std::string stroke(double x0, double y0, double x1, double y1, const char* colou
 }
 
 /// Cells between two states, from each place to the next; the worse state counts.
-std::string cells(const MapFrame& frame, const Json& letters) {
+std::string cells(const MapFrame& frame, const std::vector<std::vector<Guidance>>& guided) {
   std::string out;
   for (size_t t = 0; t < frame.times().size(); ++t) {
     const size_t next = std::min(t + 1, frame.times().size() - 1);
@@ -87,19 +79,17 @@ std::string cells(const MapFrame& frame, const Json& letters) {
     const double high = frame.times().size() == 1 ? top_mm : frame.y(frame.times()[next]);
     for (size_t i = 0; i + 1 < frame.places().size(); ++i) {
       const double x = frame.x(frame.places()[i]), end = frame.x(frame.places()[i + 1]);
-      out += box(x, high, end - x, low - high,
-                 worse(letters[t].text()[i], letters[next].text()[i]).colour);
+      out += box(x, high, end - x, low - high, worse(guided[t][i], guided[next][i]).colour);
     }
   }
   return out;
 }
 
 /// Lines from the start of each walker to his end, or to the last state.
-std::string walkers_of(const MapFrame& frame, const Json& route) {
+std::string walkers_of(const MapFrame& frame, const RouteOverTime& route) {
   std::string out;
-  for (const Json& walk : route["walks"]) {
-    const double start = value_of(walk["start"]), at_m = value_of(walk["at"]),
-                 at_s = value_of(walk["at_time"]);
+  for (const WalkRecord& walk : route.walks) {
+    const auto& [start, end, at_m, at_s] = static_cast<const GuidedWalk&>(walk);
     const double share =
         at_s > start ? std::clamp((frame.times().back() - start) / (at_s - start), 0.0, 1.0) : 1.0;
     out += stroke(frame.x(0), frame.y(start), frame.x(at_m * share),
@@ -152,7 +142,7 @@ std::string legend(const MapFrame& frame, const Texts& t) {
 
 }  // namespace
 
-std::string guidance_map(const Json& over_time, const Json& route, const Texts& texts,
+std::string guidance_map(const OverTime& over_time, const RouteOverTime& route, const Texts& texts,
                          double width_mm) {
   const MapFrame frame(over_time, route, width_mm);
   const double height = top_mm + drawing_mm + foot_mm;
@@ -161,7 +151,7 @@ std::string guidance_map(const Json& over_time, const Json& route, const Texts& 
              "viewBox=\"0 0 {0:.3f} {1:.3f}\" font-family=\"Liberation Sans, Arial, Helvetica, "
              "DejaVu Sans, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
              width_mm, height) +
-         cells(frame, route["guided"]) + walkers_of(frame, route) + axes(frame, texts) +
+         cells(frame, route.guided.at) + walkers_of(frame, route) + axes(frame, texts) +
          legend(frame, texts) + "</svg>\n";
 }
 

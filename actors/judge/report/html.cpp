@@ -1,6 +1,7 @@
 #include "actors/judge/report/html.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "actors/judge/report/plan_svg.hpp"
@@ -78,13 +79,20 @@ std::string unit_text(const Texts& texts, const std::string& unit) {
   return out;
 }
 
-std::string number_cell(const Texts& texts, const Json& value, const std::string& unit,
-                        int digits) {
-  if (!value.is_number()) return html_cell("–", "n");
+std::string no_number_cell() {
+  return html_cell("–", "n");
+}
+
+std::string number_cell(const Texts& texts, double value, const std::string& unit, int digits) {
+  if (!std::isfinite(value)) return no_number_cell();
   const std::string shown = unit_text(texts, unit);
-  return html_cell(escaped(texts.number(value.get<double>(), digits)) +
-                       (shown.empty() ? "" : "\u00a0" + escaped(shown)),
-                   "n");
+  return html_cell(
+      escaped(texts.number(value, digits)) + (shown.empty() ? "" : "\u00a0" + escaped(shown)), "n");
+}
+
+std::string number_cell(const Texts& texts, const std::optional<double>& value,
+                        const std::string& unit, int digits) {
+  return value ? number_cell(texts, *value, unit, digits) : no_number_cell();
 }
 
 std::string fixed_cell(const Texts& texts, double value, int decimals) {
@@ -132,33 +140,16 @@ std::string subheading(const std::string& text) {
   return "<h3>" + escaped(text) + "</h3>\n";
 }
 
-std::string said(const Texts& texts, const Json& remarks) {
-  if (remarks.is_null()) return "";
-  const auto read = read_remarks(
-      remarks.is_array() ? remarks : Json::array({remarks}));  // were checked when read
-  return read ? texts.remarks(read.value()) : "";
+std::string remark_html(const Texts& texts, const Remark& remark) {
+  return remark_html(texts, Remarks{remark});
 }
 
-std::string remark_html(const Texts& texts, const Json& remarks) {
-  const std::string words = said(texts, remarks);
+std::string remark_html(const Texts& texts, const Remarks& remarks) {
+  const std::string words = texts.remarks(remarks);
   return words.empty() ? "" : "<i>" + escaped(words) + "</i>";
 }
 
-std::string subject_text(const Texts& texts, const Json& subject) {
-  const auto read = read_subject(subject);
-  return read ? texts.subject(read.value()) : "";
-}
-
-std::string clause_text(const Texts& texts, const Json& check) {
-  Rule rule;
-  rule.clause = text_in(check, "clause_number");
-  if (const auto status = read_remark(check["status"])) rule.status = status.value();
-  return texts.clause(rule);
-}
-
-std::string source_status(const Json& check) {
-  Rule rule;
-  if (const auto sources = read_remarks(check["quoted_from"])) rule.sources = sources.value();
+std::string source_status(const Rule& rule) {
   if (rule.sources.empty()) return "none";
   return rule.recollected() ? "recollection" : "secondary";
 }

@@ -7,13 +7,13 @@
 
 #include "actors/judge/report/eye_pictures.hpp"
 #include "actors/judge/report/schedule.hpp"
-#include "actors/judge/texts/remark_json.hpp"
+#include "actors/judge/texts/texts.hpp"
 
 namespace luxodus {
 
 /// Inputs that all sections of a page share.
 struct PageParts {
-  const Json& a;  // the assessment
+  const AssessmentRecord& a;
   const Schedule& schedule;
   const Texts& texts;
   const std::vector<ReportPicture>& pictures;
@@ -26,9 +26,13 @@ std::string escaped(const std::string& text);
 
 std::string cell(const std::string& text);
 std::string html_cell(const std::string& html, const char* css_class = "");
-/// A number with its unit, right-aligned; a dash if there is no number.
-std::string number_cell(const Texts& texts, const Json& value, const std::string& unit = "",
+/// A number with its unit, right-aligned; a dash if it is not finite, or if there is none.
+std::string number_cell(const Texts& texts, double value, const std::string& unit = "",
                         int digits = 3);
+std::string number_cell(const Texts& texts, const std::optional<double>& value,
+                        const std::string& unit = "", int digits = 3);
+/// A dash: no number.
+std::string no_number_cell();
 std::string fixed_cell(const Texts& texts, double value, int decimals);
 /// "cd/m²" for "cd/m2", "" for "1".
 std::string unit_text(const Texts& texts, const std::string& unit);
@@ -47,16 +51,11 @@ std::string heading_row(const std::string& html, size_t columns);
 std::string paragraph(const std::string& text, const char* css_class = "");
 std::string figure(const std::string& html, const std::string& caption);
 std::string subheading(const std::string& text);
-/// The sentences of a remark or a list of remarks in JSON; "" if there is none.
-std::string said(const Texts& texts, const Json& remarks);
-/// These sentences in the style of remarks.
-std::string remark_html(const Texts& texts, const Json& remarks);
+/// Sentences in the style of remarks; "" if there are none.
+std::string remark_html(const Texts& texts, const Remark& remark);
+std::string remark_html(const Texts& texts, const Remarks& remarks);
 
-/// 'route "corridor"', with the kind in the language of the report.
-std::string subject_text(const Texts& texts, const Json& subject);
-/// Clause of a check: "4.2.1 of 2013".
-std::string clause_text(const Texts& texts, const Json& check);
-/// Source of a check's limit: "verified", "secondary", "recollection" or "none".
-std::string source_status(const Json& check);
+/// Source of a rule's limit: "secondary", "recollection" or "none".
+std::string source_status(const Rule& rule);
 
 }  // namespace luxodus

@@ -18,14 +18,13 @@ struct ValueGrid {
   std::vector<double> lux;
 };
 
-ValueGrid grid_of(const Json& map) {
+ValueGrid grid_of(const LightMap& map) {
   ValueGrid out;
-  out.corner = {map["corner"][0].get<double>(), map["corner"][1].get<double>()};
-  out.spacing = map["spacing"].get<double>();
-  out.columns = map["columns"].get<size_t>();
-  out.rows = map["rows"].get<size_t>();
-  for (const Json& value : map["lux"])
-    out.lux.push_back(value.is_number() ? value.get<double>() : std::nan(""));
+  out.corner = map.corner;
+  out.spacing = map.spacing_m;
+  out.columns = static_cast<size_t>(map.columns);
+  out.rows = static_cast<size_t>(map.rows);
+  for (const DrawnLux& value : map.lux) out.lux.push_back(value.lux);
   return out;
 }
 
@@ -49,18 +48,15 @@ bool touches(glm::dvec2 a, glm::dvec2 b, double i, double j) {
 }
 
 /// Marks the squares that walls cross, row by row.
-std::vector<char> crossed(const ValueGrid& grid, const Json& walls) {
+std::vector<char> crossed(const ValueGrid& grid, const std::vector<DrawnLine>& walls) {
   const size_t across = grid.columns - 1, up = grid.rows - 1;
   std::vector<char> out(across * up, 0);
   const auto first = [](double v, size_t count) {
     return static_cast<size_t>(std::clamp(std::floor(v), 0.0, static_cast<double>(count)));
   };
-  for (const Json& wall : walls) {
-    const auto end = [&](size_t k) {
-      return (glm::dvec2(wall[k].get<double>(), wall[k + 1].get<double>()) - grid.corner) /
-             grid.spacing;
-    };
-    const glm::dvec2 a = end(0), b = end(2), low = glm::min(a, b), high = glm::max(a, b);
+  for (const auto& [from, to] : walls) {
+    const glm::dvec2 a = (from - grid.corner) / grid.spacing, b = (to - grid.corner) / grid.spacing,
+                     low = glm::min(a, b), high = glm::max(a, b);
     for (size_t j = first(low.y, up); j < std::min(up, first(high.y, up) + 1); ++j)
       for (size_t i = first(low.x, across); i < std::min(across, first(high.x, across) + 1); ++i)
         if (touches(a, b, static_cast<double>(i), static_cast<double>(j))) out[j * across + i] = 1;
@@ -145,11 +141,11 @@ void add_row(const ValueGrid& grid, const std::vector<char>& cut, size_t j, doub
 
 }  // namespace
 
-std::vector<IsoluxLine> isolux_lines(const Json& level) {
-  ValueGrid grid = grid_of(level["map"]);
+std::vector<IsoluxLine> isolux_lines(const PlanLevel& level) {
+  ValueGrid grid = grid_of(level.map);
   std::vector<IsoluxLine> out;
   if (grid.columns < 2 || grid.rows < 2) return out;
-  const auto cut = crossed(grid, level["walls"]);
+  const auto cut = crossed(grid, level.walls);
   leave_out_walls(cut, grid);
   for (const double lux : isolux_levels) {
     std::vector<ContourLine> pieces;

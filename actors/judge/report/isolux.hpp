@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "actors/judge/record/plan_record.hpp"
 #include "actors/results/formats/contour_lines.hpp"
-#include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
 
@@ -20,7 +20,7 @@ struct IsoluxLine {
   ContourLine line;  // in plan coordinates [m]
 };
 
-/// Requires: a plan level of a JSON that check_assessment has passed.
-std::vector<IsoluxLine> isolux_lines(const Json& level);
+/// Requires: a map with a value for each of its places, or without places.
+std::vector<IsoluxLine> isolux_lines(const PlanLevel& level);
 
 }  // namespace luxodus

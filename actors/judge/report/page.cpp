@@ -52,8 +52,7 @@ std::string css_text(const std::string& text) {
 }
 
 std::string title_of(const PageParts& parts) {
-  for (const auto& title : {text_in(parts.a["project"], "name"), text_in(parts.a["scene"], "title"),
-                            text_in(parts.a["scene"], "name")})
+  for (const auto& title : {parts.a.project.name, parts.a.scene.title, parts.a.scene.name})
     if (!title.empty()) return title;
   return parts.texts("page.kind");
 }
@@ -61,12 +60,12 @@ std::string title_of(const PageParts& parts) {
 /// CSS for the paper size and the texts in the margins of every page.
 std::string page_rule(const PageParts& parts, bool letter) {
   const Texts& t = parts.texts;
-  const Json& project = parts.a["project"];
+  const ProjectRecord& project = parts.a.project;
+  const std::string revision =
+      project.revision.empty() ? "" : t("project.revision") + (" " + project.revision);
   std::string left = title_of(parts), right;
-  for (const char* key : {"document", "revision", "date"})
-    if (const std::string text = text_in(project, key); !text.empty())
-      right += (right.empty() ? "" : " · ") +
-               (std::string(key) == "revision" ? t("project.revision") + (" " + text) : text);
+  for (const std::string& text : {project.document, revision, project.date})
+    if (!text.empty()) right += (right.empty() ? "" : " · ") + text;
   const std::string of = t("page.of");
   // "Page {0} of {1}", in which the browser counts.
   const size_t first = of.find("{0}"), second = of.find("{1}");
@@ -89,71 +88,66 @@ std::string page_rule(const PageParts& parts, bool letter) {
 
 std::string project_block(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const Json& project = parts.a["project"];
+  const ProjectRecord& project = parts.a.project;
+  const SceneRecord& scene = parts.a.scene;
   std::string out = "<dl class=\"project\">\n";
   const auto add = [&](const char* key, const std::string& value) {
     out += "<div><dt>" + escaped(t(key)) + "</dt><dd>" + escaped(value.empty() ? "–" : value) +
            "</dd></div>\n";
   };
-  for (const auto& [key, name] :
-       {std::pair{"project.client", "client"}, std::pair{"project.document", "document"},
-        std::pair{"project.address", "address"}, std::pair{"project.revision", "revision"},
-        std::pair{"project.author", "author"}, std::pair{"project.date", "date"},
-        std::pair{"project.checker", "checker"}})
-    add(key, text_in(project, name));
-  add("project.scene", text_in(parts.a["scene"], "title").empty()
-                           ? text_in(parts.a["scene"], "name")
-                           : text_in(parts.a["scene"], "title"));
+  add("project.client", project.client);
+  add("project.document", project.document);
+  add("project.address", project.address);
+  add("project.revision", project.revision);
+  add("project.author", project.author);
+  add("project.date", project.date);
+  add("project.checker", project.checker);
+  add("project.scene", scene.title.empty() ? scene.name : scene.title);
   return out + "</dl>\n";
 }
 
 /// Scenario, operation, lit luminaires, smoke and rule sets in one line.
 std::string state_line(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const Json& s = parts.a["state"];
-  std::string out =
-      t("state.scenario") + std::string(": ") +
-      (text_in(s, "scenario").empty() ? t("state.no_scenario") : text_in(s, "scenario")) + " · " +
-      t.word("operation", text_in(s, "operation"));
-  if (const Json& seconds = s["seconds_after_failure"]; seconds.is_object())
-    out += ", " + t.number(seconds["value"].get<double>(), 4) + " s";
-  out += " · " + t.say("state.lit", s["luminaires"]["lit"].get<int64_t>(),
-                       s["luminaires"]["of"].get<int64_t>());
-  const Json& smoke = s["smoke"];
+  const StateRecord& s = parts.a.state;
+  std::string out = t("state.scenario") + std::string(": ") +
+                    (s.scenario.empty() ? t("state.no_scenario") : s.scenario) + " · " +
+                    t.word("operation", name_of(s.operation));
+  if (s.seconds_after_failure) out += ", " + t.number(*s.seconds_after_failure, 4) + " s";
+  out += " · " + t.say("state.lit", s.luminaires.lit, s.luminaires.of);
   out += std::string(" · ") + t("state.smoke") + ": ";
-  if (smoke.is_object() && smoke["extinction"].is_object())
-    out += t.number(smoke["extinction"]["min"].get<double>()) + "–" +
-           t.number(smoke["extinction"]["max"].get<double>()) + " 1/m";
+  if (s.smoke)
+    out += t.number(s.smoke->extinction.min) + "–" + t.number(s.smoke->extinction.max) + " 1/m";
   else
     out += t("state.no_smoke");
-  for (const Json& rule : s["rules"]) out += " · " + text_in(rule, "edition");
+  for (const RulesRecord& rule : s.rules) out += " · " + rule.edition;
   return out;
 }
 
 std::string verdict_box(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const Json& v = parts.a["verdict"];
-  const auto count = [&](const char* key) { return v[key].get<int64_t>(); };
-  const char* mark = count("fail") > 0           ? "fail"
-                     : count("not_verified") > 0 ? "not verified"
-                     : count("not_assessed") > 0 ? "not assessed"
-                                                 : "information";
+  const CountsRecord& counts = parts.a.counts;
+  const CheckVerdict mark = counts.fail > 0           ? CheckVerdict::fail
+                            : counts.not_verified > 0 ? CheckVerdict::not_verified
+                            : counts.not_assessed > 0 ? CheckVerdict::not_assessed
+                                                      : CheckVerdict::information;
   std::string chips;
-  for (const auto& [key, verdict] :
-       {std::pair{"pass", "pass"}, std::pair{"fail", "fail"},
-        std::pair{"not_assessed", "not assessed"}, std::pair{"not_verified", "not verified"}})
-    chips += "<span>" + std::to_string(count(key)) + " " + verdict_mark(t, "verdict", verdict) +
+  for (const auto& [count, verdict] :
+       {std::pair(counts.pass, CheckVerdict::pass), std::pair(counts.fail, CheckVerdict::fail),
+        std::pair(counts.not_assessed, CheckVerdict::not_assessed),
+        std::pair(counts.not_verified, CheckVerdict::not_verified)})
+    chips += "<span>" + std::to_string(count) + " " + verdict_mark(t, "verdict", name_of(verdict)) +
              "</span>\n";
   std::string out =
       "<div class=\"box\"><svg viewBox=\"-1.25 -1.25 2.5 2.5\" "
       "aria-hidden=\"true\">" +
-      verdict_shape(mark, 0, 0, 1) + "</svg><div><p class=\"words\">" +
+      verdict_shape(name_of(mark), 0, 0, 1) + "</svg><div><p class=\"words\">" +
       escaped(headline(t, parts.a)) + "</p><p class=\"chips\">" + chips + "</p>";
-  if (!parts.a["sights"].empty()) {
+  if (!parts.a.sights.empty()) {
     out += "<p>" + escaped(t("verdict.sights")) + "</p><p class=\"chips\">";
-    for (const auto& [verdict, times] : parts.a["sight_counts"].items())
-      out += "<span>" + std::to_string(times.get<int64_t>()) + " " +
-             verdict_mark(t, "sight", verdict) + "</span>\n";
+    for (const auto& [verdict, times] : parts.a.sight_counts)
+      out +=
+          "<span>" + std::to_string(times) + " " + verdict_mark(t, "sight", verdict) + "</span>\n";
     out += "</p>";
   }
   return out + "<p class=\"note\">" + escaped(state_line(parts)) + "</p></div></div>\n";
@@ -176,7 +170,7 @@ std::string report_page(const PageParts& parts, const PageOptions& options) {
   const Texts& t = parts.texts;
   std::string out = "<header class=\"cover\"><div>" + paragraph(t("page.kind"), "kind") + "<h1>" +
                     escaped(title_of(parts)) + "</h1></div>";
-  if (const std::string logo = text_in(parts.a["project"], "logo_png"); !logo.empty())
+  if (const std::string logo = parts.a.project.logo_png; !logo.empty())
     out += "<img alt=\"\" src=\"data:image/png;base64," + logo + "\">";
   out += "</header>\n" + project_block(parts) + verdict_box(parts) + notice_box(t);
   std::string contents, body;

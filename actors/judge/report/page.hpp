@@ -1,5 +1,5 @@
-// The page of a report: one self-contained HTML document for a browser and for paper, from the JSON
-// of an assessment. Its sections are in page_*.cpp. Pure functions; any thread.
+// The page of a report: one self-contained HTML document for a browser and for paper, from the
+// record of an assessment. Its sections are in page_*.cpp. Pure functions; any thread.
 #pragma once
 
 #include <map>
@@ -34,9 +34,9 @@ std::string signs_appendix(const PageParts& parts);
 std::string thumb_appendix(const PageParts& parts);
 
 /// The verdict in words: "3 checks fail, 2 not assessed".
-std::string verdict_words(const Texts& texts, const Json& assessment);
+std::string verdict_words(const Texts& texts, const CountsRecord& counts);
 /// The first sentence of a report: state, rules, and counts of checks and views. In English it is
 /// that of first_words (actors/judge/assess).
-std::string headline(const Texts& texts, const Json& assessment);
+std::string headline(const Texts& texts, const AssessmentRecord& assessment);
 
 }  // namespace luxodus

@@ -30,70 +30,57 @@ class Facts {
   std::string rows_;
 };
 
-std::string list_text(const Json& list) {
+std::string list_text(const std::vector<std::string>& list) {
   std::string out;
-  for (const Json& one : list)
-    out += (out.empty() ? "" : ", ") + (one.is_string() ? one.get<std::string>() : std::string());
+  for (const std::string& one : list) out += (out.empty() ? "" : ", ") + one;
   return out;
 }
 
-std::string extinction_text(const Texts& t, const Json& low, const Json& high,
-                            const std::string& unit) {
-  if (!low.is_number() || !high.is_number()) return "";
-  const double a = low.get<double>(), b = high.get<double>();
-  return (a == b ? t.number(a) : t.number(a) + "–" + t.number(b)) + " " + unit;
+std::string extinction_text(const Texts& t, double low, double high) {
+  return (low == high ? t.number(low) : t.number(low) + "–" + t.number(high)) + " 1/m";
 }
 
-std::string smoke_html(const Texts& t, const Json& smoke) {
-  if (!smoke.is_object() || smoke["media"].empty()) return escaped(t("state.no_smoke"));
-  std::string out;
-  if (const Json& k = smoke["extinction"]; k.is_object())
-    out = "<b>" + escaped(extinction_text(t, k["min"], k["max"], text_in(k, "unit"))) + "</b>" +
-          (k.contains("wavelength_nm") && k["wavelength_nm"].is_number()
-               ? escaped(t.say("state.at_wavelength", t.number(k["wavelength_nm"].get<double>())))
-               : "");
-  for (const Json& medium : smoke["media"]) {
-    out += "<br>" + escaped(text_in(medium, "name")) + ": " +
-           escaped(extinction_text(t, medium["extinction_min"], medium["extinction_max"], "1/m"));
-    std::string source = escaped(text_in(medium, "place"));
-    for (const Json& note : medium["notes"]) source += ", " + escaped(said(t, note));
+std::string smoke_html(const Texts& t, const std::optional<StateSmokeRecord>& smoke) {
+  if (!smoke || smoke->media.empty()) return escaped(t("state.no_smoke"));
+  const ExtinctionRecord& k = smoke->extinction;
+  std::string out = "<b>" + escaped(extinction_text(t, k.min, k.max)) + "</b>" +
+                    escaped(t.say("state.at_wavelength", t.number(k.wavelength_nm)));
+  for (const StatedMedium& medium : smoke->media) {
+    out += "<br>" + escaped(medium.name) + ": " +
+           escaped(extinction_text(t, medium.extinction_min, medium.extinction_max));
+    std::string source = escaped(medium.place);
+    for (const Remark& note : medium.notes) source += ", " + escaped(t.remark(note));
     if (!source.empty()) out += " (<i>" + source + "</i>)";
   }
   return out;
 }
 
 /// Rule sets or deviations: edition, id, requirement and status.
-std::string rules_html(const Texts& t, const Json& rules) {
+std::string rules_html(const Texts& t, const std::vector<RulesRecord>& rules) {
   std::string out;
-  for (const Json& rule : rules) {
-    out += (out.empty() ? "<b>" : "<br><b>") + escaped(text_in(rule, "edition")) + "</b> (" +
-           escaped(text_in(rule, "id")) + ")";
-    for (const char* key : {"what", "status"})
-      if (const std::string text = remark_html(t, rule[key]); !text.empty()) out += ": " + text;
+  for (const RulesRecord& rule : rules) {
+    out += (out.empty() ? "<b>" : "<br><b>") + escaped(rule.edition) + "</b> (" + escaped(rule.id) +
+           "): " + remark_html(t, rule.what);
+    if (rule.status) out += ": " + remark_html(t, *rule.status);
   }
   return out;
 }
 
-std::string factor_text(const PageParts& parts, const Json& factors) {
+std::string factor_text(const PageParts& parts, const std::vector<FactorRecord>& factors) {
   std::string out;
-  for (const Json& f : factors)
-    out += (out.empty() ? "" : "; ") + text_in(f, "name") + " × " +
-           parts.texts.number(f["factor"].get<double>());
+  for (const FactorRecord& f : factors)
+    out += (out.empty() ? "" : "; ") + f.name + " × " + parts.texts.number(f.factor);
   return out;
 }
 
 std::string materials_table(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
-  const auto share = [&](const Json& m, const char* key) {
-    const auto at = m.find(key);
-    return at == m.end() ? html_cell("–", "n") : number_cell(t, *at, "", 2);
-  };
-  for (const Json& m : parts.a["materials"]) {
-    rows += "<tr>" + cell(text_in(m, "name")) + cell(t.word("material", text_in(m, "kind")));
-    for (const char* key : {"reflectance", "specular", "transmittance", "ior"})
-      rows += share(m, key);
-    rows += html_cell(std::to_string(m["objects"].get<int64_t>()), "n") + "</tr>\n";
+  for (const MaterialRecord& m : parts.a.materials) {
+    rows += "<tr>" + cell(m.name) + cell(t.word("material", m.kind));
+    for (const auto& share : {m.reflectance, m.specular, m.transmittance, m.ior})
+      rows += number_cell(t, share, "", 2);
+    rows += html_cell(std::to_string(m.objects), "n") + "</tr>\n";
   }
   return table(t,
                {"column.material", "column.kind", "column.reflectance", "column.specular",
@@ -104,23 +91,18 @@ std::string materials_table(const PageParts& parts) {
 std::string media_table(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
-  for (const Json& medium : parts.a["media"])
-    for (const Json& layer : medium["layers"]) {
-      const bool first = &layer == &medium["layers"].front();
+  for (const MediumRecord& medium : parts.a.media)
+    for (const LayerRecord& layer : medium.layers) {
+      const bool first = &layer == &medium.layers.front();
       std::string height = "–";
-      if (layer.contains("z_low"))
-        height =
-            t.fixed(layer["z_low"].get<double>()) + "–" + t.fixed(layer["z_high"].get<double>());
-      rows += "<tr>" + cell(first ? text_in(medium, "name") : "") +
-              cell(first ? t.word("medium", text_in(medium, "kind")) : "") +
-              html_cell(escaped(height), "n") +
-              number_cell(t, layer["extinction"]["value"], text_in(layer["extinction"], "unit")) +
-              number_cell(t, layer["wavelength"]["value"]) + number_cell(t, layer["angstrom"]) +
-              number_cell(t, layer["albedo"], "", 2) + number_cell(t, layer["asymmetry"], "", 2) +
-              (first && medium.contains("flame_power")
-                   ? number_cell(t, medium["flame_power"]["value"], "W")
-                   : html_cell("–", "n")) +
-              "</tr>\n";
+      if (layer.z_low_m && layer.z_high_m)
+        height = t.fixed(*layer.z_low_m) + "–" + t.fixed(*layer.z_high_m);
+      rows += "<tr>" + cell(first ? medium.name : "") +
+              cell(first ? t.word("medium", medium.kind) : "") + html_cell(escaped(height), "n") +
+              number_cell(t, layer.extinction_per_m, "1/m") + number_cell(t, layer.wavelength_nm) +
+              number_cell(t, layer.angstrom) + number_cell(t, layer.albedo, "", 2) +
+              number_cell(t, layer.asymmetry, "", 2) +
+              (first ? number_cell(t, medium.flame_power_w, "W") : no_number_cell()) + "</tr>\n";
     }
   return table(
       t,
@@ -129,66 +111,54 @@ std::string media_table(const PageParts& parts) {
       {20, 12, 12, 12, 10, 9, 8, 8, 9}, rows);
 }
 
-/// "S8, ISO 3864-4: Chromaticity of safety colours", "views of signs"
-std::string group_text(const Texts& t, const Json& group) {
-  const std::string rule = text_in(group, "rule");
-  return rule.empty() ? t("views.of_signs")
-                      : rule + ", " + text_in(group, "edition") + ": " + t.rule_title(rule);
-}
-
-std::string why_html(const Texts& t, const Json& group) {
-  const std::string why = said(t, group["why"]);
-  return "<i>" + escaped(group["undecided"].get<bool>() ? t.say("views.undecided", why) : why) +
-         "</i>";
+std::string why_html(const Texts& t, const NotAssessedRecord& group) {
+  const std::string why = t.remarks(group.why);
+  return "<i>" + escaped(group.undecided ? t.say("views.undecided", why) : why) + "</i>";
 }
 
 }  // namespace
 
 std::string state_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const Json &s = parts.a["state"], &scenario = parts.a["scenario"];
+  const StateRecord& s = parts.a.state;
+  const ScenarioRecord& scenario = parts.a.scenario;
   Facts facts(t);
-  facts.add("state.scenario",
-            text_in(s, "scenario").empty() ? t("state.no_scenario") : text_in(s, "scenario"));
-  facts.add("state.operation", t.word("operation", text_in(s, "operation")));
-  const Json& seconds = s["seconds_after_failure"];
-  facts.add("state.seconds", seconds.is_object()
-                                 ? t.number(seconds["value"].get<double>(), 4) + " s"
-                                 : t("state.seconds_unsaid"));
-  const Json& lit = s["luminaires"];
-  facts.add_html(
-      "state.luminaires",
-      "<b>" + escaped(t.say("state.lit", lit["lit"].get<int64_t>(), lit["of"].get<int64_t>())) +
-          "</b>" + (lit["lit_names"].empty() ? "" : "<br>") + escaped(list_text(lit["lit_names"])));
-  facts.add_html("state.smoke", smoke_html(t, s["smoke"]));
-  facts.add_html("state.rules", rules_html(t, s["rules"]));
-  facts.add_html("state.deviations", s["deviations"].empty() ? escaped(t("state.no_deviations"))
-                                                             : rules_html(t, s["deviations"]));
-  facts.add("state.doors_open", list_text(scenario["doors_open"]));
-  facts.add("state.doors_closed", list_text(scenario["doors_closed"]));
-  std::string remarks = remark_html(t, s["light"]);
-  for (const Json& one : s["remarks"]) remarks += "<br>" + remark_html(t, one);
+  facts.add("state.scenario", s.scenario.empty() ? t("state.no_scenario") : s.scenario);
+  facts.add("state.operation", t.word("operation", name_of(s.operation)));
+  facts.add("state.seconds", s.seconds_after_failure ? t.number(*s.seconds_after_failure, 4) + " s"
+                                                     : t("state.seconds_unsaid"));
+  const LitRecord& lit = s.luminaires;
+  facts.add_html("state.luminaires", "<b>" + escaped(t.say("state.lit", lit.lit, lit.of)) + "</b>" +
+                                         (lit.names.empty() ? "" : "<br>") +
+                                         escaped(list_text(lit.names)));
+  facts.add_html("state.smoke", smoke_html(t, s.smoke));
+  facts.add_html("state.rules", rules_html(t, s.rules));
+  facts.add_html("state.deviations", s.deviations.empty() ? escaped(t("state.no_deviations"))
+                                                          : rules_html(t, s.deviations));
+  facts.add("state.doors_open", list_text(scenario.doors_open));
+  facts.add("state.doors_closed", list_text(scenario.doors_closed));
+  std::string remarks = remark_html(t, s.light);
+  for (const Remark& one : s.remarks) remarks += "<br>" + remark_html(t, one);
   facts.add_html("state.remarks", remarks);
   return facts.table();
 }
 
 std::string inputs_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const Json &people = parts.a["people"], &plan = parts.a["plan"], &scenario = parts.a["scenario"];
+  const PeopleRecord& people = parts.a.people;
+  const PlanRecord& plan = parts.a.plan;
+  const ScenarioRecord& scenario = parts.a.scenario;
   Facts facts(t);
-  facts.add("inputs.age", t.say("inputs.years", t.number(people["age"]["value"].get<double>())));
-  facts.add("inputs.spacing", t.number(people["spacing"]["value"].get<double>()) + " m");
-  const Json& irritant = people["irritant_smoke"];
-  facts.add("inputs.irritant", t(irritant.is_null()     ? "word.unknown"
-                                 : irritant.get<bool>() ? "word.yes"
-                                                        : "word.no"));
-  facts.add("inputs.grid",
-            t.say("inputs.grid_text", t.number(plan["route_grid"]["value"].get<double>()),
-                  t.number(plan["area_grid"]["value"].get<double>()),
-                  t.number(plan["height"]["value"].get<double>())));
+  facts.add("inputs.age", t.say("inputs.years", t.number(people.age_years)));
+  facts.add("inputs.spacing", t.number(people.spacing_m) + " m");
+  facts.add("inputs.irritant", t(!people.irritant_smoke   ? "word.unknown"
+                                 : *people.irritant_smoke ? "word.yes"
+                                                          : "word.no"));
+  facts.add("inputs.grid", t.say("inputs.grid_text", t.number(plan.route_grid_m),
+                                 t.number(plan.area_grid_m), t.number(plan.height_m)));
   facts.add("inputs.factors", t("inputs.factors_text"));
-  facts.add("inputs.scenario_media", factor_text(parts, scenario["media"]));
-  facts.add("inputs.scenario_circuits", factor_text(parts, scenario["circuits"]));
+  facts.add("inputs.scenario_media", factor_text(parts, scenario.media));
+  facts.add("inputs.scenario_circuits", factor_text(parts, scenario.circuits));
   std::string out = facts.table();
   out += subheading(t("inputs.materials")) + materials_table(parts) +
          paragraph(t("inputs.materials_note"), "note");
@@ -206,13 +176,13 @@ std::string or_dash(const std::string& text) {
 
 std::string clauses_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  std::map<std::string, const Json*> rules;  // by edition, clause and id
+  std::map<std::string, const CheckRecord*> rules;  // by edition, clause and id
   std::map<std::string, std::map<std::string, int>> verdicts;
-  for (const Json& check : parts.a["checks"]) {
-    const std::string key =
-        text_in(check, "edition") + "\n" + text_in(check, "clause") + "\n" + text_in(check, "rule");
+  for (const CheckRecord& check : parts.a.checks) {
+    const std::string key = check.rule.edition + "\n" + english().clause(check.rule) + "\n" +
+                            std::string(name_of(check.rule.id));
     rules.try_emplace(key, &check);
-    ++verdicts[key][text_in(check, "verdict")];
+    ++verdicts[key][name_of(check.verdict)];
   }
   std::string rows;
   for (const auto& [key, check] : rules) {
@@ -220,11 +190,12 @@ std::string clauses_section(const PageParts& parts) {
     for (const auto& [verdict, count] : verdicts[key])
       counts += (counts.empty() ? "" : "<br>") + std::to_string(count) + " " +
                 escaped(t.word("verdict", verdict));
-    rows += "<tr>" + html_cell("<b>" + escaped(text_in(*check, "rule")) + "</b>") +
-            cell(t.word("edition", text_in(*check, "edition"))) +
-            cell(or_dash(clause_text(t, *check))) + cell(t.rule_title(text_in(*check, "rule"))) +
-            cell(or_dash(said(t, (*check)["quoted_from"]))) +
-            cell(t.word("status", source_status(*check))) + html_cell(counts) + "</tr>\n";
+    const Rule& rule = check->rule;
+    const std::string id(name_of(rule.id));
+    rows += "<tr>" + html_cell("<b>" + escaped(id) + "</b>") +
+            cell(t.word("edition", rule.edition)) + cell(or_dash(t.clause(rule))) +
+            cell(t.rule_title(id)) + cell(or_dash(t.remarks(rule.sources))) +
+            cell(t.word("status", source_status(rule))) + html_cell(counts) + "</tr>\n";
   }
   if (rows.empty()) return paragraph(t("clauses.none"));
   return paragraph(t("clauses.lead")) +
@@ -237,9 +208,9 @@ std::string clauses_section(const PageParts& parts) {
 std::string not_assessed_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
-  for (const Json& one : parts.a["not_assessed"])
-    rows += "<tr>" + cell(group_text(t, one)) + html_cell(why_html(t, one)) +
-            number_cell(t, one["count"], "", 9) + "</tr>\n";
+  for (const NotAssessedRecord& one : parts.a.not_assessed)
+    rows += "<tr>" + cell(one.words(t)) + html_cell(why_html(t, one)) +
+            number_cell(t, static_cast<double>(one.count), "", 9) + "</tr>\n";
   std::string out = paragraph(t("not_assessed.lead"));
   out += rows.empty() ? paragraph(t("not_assessed.nothing"))
                       : table(t, {"column.what", "column.why", "column.count"}, {38, 52, 10}, rows);
@@ -252,19 +223,18 @@ std::string not_assessed_section(const PageParts& parts) {
 
 std::string method_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const Json &m = parts.a["method"], &plan = parts.a["plan"];
+  const MethodRecord& m = parts.a.method;
+  const PlanRecord& plan = parts.a.plan;
   std::string out =
-      paragraph(t.say("method.codes", t.number(plan["route_grid"]["value"].get<double>()),
-                      t.number(plan["area_grid"]["value"].get<double>()))) +
+      paragraph(t.say("method.codes", t.number(plan.route_grid_m), t.number(plan.area_grid_m))) +
       paragraph(t("method.signs")) + paragraph(t("method.legible"));
   Facts facts(t);
-  facts.add("method.version", "Luxodus " + text_in(parts.a, "version"));
-  facts.add("method.scene", text_in(parts.a["scene"], "file"));
-  facts.add_html("method.hash",
-                 "<code>" + escaped(text_in(parts.a["scene"], "content_hash")) + "</code>");
-  facts.add_html("method.seed", "<code>" + std::to_string(m["seed"].get<uint64_t>()) + "</code>");
-  facts.add("method.paths", std::to_string(m["eye_paths"].get<int64_t>()));
-  facts.add("method.seconds", t.number(m["seconds"]["value"].get<double>()) + " s");
+  facts.add("method.version", "Luxodus " + parts.a.version);
+  facts.add("method.scene", parts.a.scene.file);
+  facts.add_html("method.hash", "<code>" + escaped(parts.a.scene.content_hash) + "</code>");
+  facts.add_html("method.seed", "<code>" + std::to_string(m.seed) + "</code>");
+  facts.add("method.paths", std::to_string(m.eye_paths));
+  facts.add("method.seconds", t.number(m.seconds) + " s");
   facts.add("method.files", t("method.files_text"));
   return out + subheading(t("method.trace")) + facts.table();
 }

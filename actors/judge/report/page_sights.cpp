@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "actors/judge/report/page.hpp"
 #include "actors/judge/report/plan_svg.hpp"
@@ -14,27 +15,16 @@ namespace luxodus {
 
 namespace {
 
-constexpr std::array<const char*, 6> sight_order{
-    "legible",   "undecided",    "visible but not legible",
-    "invisible", "not assessed", "hidden by the building"};
 /// Visibility level from which the smallest detail of a legend is read.
 constexpr double reading_level = 7;
 constexpr size_t thumb_places = 10;
 /// Largest number of rows of the appendix; sights.csv has all views.
 constexpr size_t appendix_rows = 400;
 
-bool is_observer(const Json& sight) {
-  return text_in(sight["from"], "kind") == name_of(SubjectKind::observer);
-}
-
-double height_of(const Json& sight) {
-  return sight["eye_height"]["value"].get<double>();
-}
-
-std::vector<double> heights_of(const Json& a) {
+std::vector<double> heights_of(const AssessmentRecord& a) {
   std::set<double, std::greater<>> heights;
-  for (const Json& sight : a["sights"])
-    if (!is_observer(sight)) heights.insert(height_of(sight));
+  for (const SightRecord& sight : a.sights)
+    if (!sight.by_observer()) heights.insert(sight.eye_height_m);
   return {heights.begin(), heights.end()};
 }
 
@@ -42,9 +32,9 @@ std::vector<double> heights_of(const Json& a) {
 struct Amount {
   double metres = 0, square_metres = 0;
   bool none() const { return metres == 0 && square_metres == 0; }
-  void take(const Json& sight) {
-    const double value = sight["stands_for"]["value"].get<double>();
-    (text_in(sight["stands_for"], "unit") == "m" ? metres : square_metres) += value;
+  void take(const SightRecord& sight) {
+    const double value = sight.stands_for.value;
+    (sight.stands_for.unit == "m" ? metres : square_metres) += value;
   }
   std::string text(const Texts& t) const {
     if (none()) return "–";
@@ -54,29 +44,26 @@ struct Amount {
   }
 };
 
-size_t rank_of(const Json& sight) {
-  const auto verdict = text_in(sight, "verdict");
-  return static_cast<size_t>(std::find(sight_order.begin(), sight_order.end(), verdict) -
-                             sight_order.begin());
-}
+/// Where a person stands, and on which route or in which area.
+using Place = std::tuple<Subject, double, double, double>;
 
 /// For each eye height, the share of routes and areas by the verdict on the best sign.
 std::string heights_table(const PageParts& parts, const std::vector<double>& heights) {
   const Texts& t = parts.texts;
   std::string rows;
   for (const double height : heights) {
-    std::map<std::string, std::pair<size_t, const Json*>> best;  // by place
-    for (const Json& sight : parts.a["sights"]) {
-      if (is_observer(sight) || height_of(sight) != height) continue;
-      const std::string place = sight["from"].dump() + sight["eye"].dump();
-      const auto known = best.try_emplace(place, rank_of(sight), &sight).first;
-      if (rank_of(sight) < known->second.first) known->second = {rank_of(sight), &sight};
+    std::map<Place, std::pair<size_t, const SightRecord*>> best;
+    for (const SightRecord& sight : parts.a.sights) {
+      if (sight.by_observer() || sight.eye_height_m != height) continue;
+      const Place place{sight.from, sight.eye.x, sight.eye.y, sight.eye.z};
+      const auto known = best.try_emplace(place, rank_of(sight.verdict), &sight).first;
+      if (rank_of(sight.verdict) < known->second.first)
+        known->second = {rank_of(sight.verdict), &sight};
     }
-    std::array<Amount, 7> amounts;
-    for (const auto& [place, one] : best) amounts[std::min<size_t>(one.first, 6)].take(*one.second);
+    std::array<Amount, sight_ranks.size()> amounts;
+    for (const auto& [place, one] : best) amounts[one.first].take(*one.second);
     rows += "<tr>" + html_cell("<b>" + escaped(t.fixed(height)) + "\u00a0m</b>", "n");
-    for (size_t i = 0; i < sight_order.size(); ++i)
-      rows += html_cell(escaped(amounts[i].text(t)), "n");
+    for (const Amount& amount : amounts) rows += html_cell(escaped(amount.text(t)), "n");
     rows += "</tr>\n";
   }
   return table(
@@ -90,22 +77,19 @@ std::string heights_table(const PageParts& parts, const std::vector<double>& hei
 std::string signs_table(const PageParts& parts, double height) {
   const Texts& t = parts.texts;
   std::string rows;
-  const Json& signs = parts.a["signs"];
+  const auto& signs = parts.a.signs;
   for (size_t i = 0; i < signs.size(); ++i) {
-    std::array<Amount, 7> amounts;
+    std::array<Amount, sight_ranks.size()> amounts;
     bool any = false;
-    for (const Json& sight : parts.a["sights"]) {
-      if (is_observer(sight) || height_of(sight) != height ||
-          text_in(sight, "sign") != text_in(signs[i], "name"))
+    for (const SightRecord& sight : parts.a.sights) {
+      if (sight.by_observer() || sight.eye_height_m != height || sight.sign != signs[i].name)
         continue;
       any = true;
-      amounts[std::min<size_t>(rank_of(sight), 6)].take(sight);
+      amounts[rank_of(sight.verdict)].take(sight);
     }
     if (!any) continue;
-    rows += "<tr>" + html_cell("<b>" + std::to_string(i + 1) + "</b>", "n") +
-            cell(text_in(signs[i], "name"));
-    for (size_t k = 0; k < sight_order.size(); ++k)
-      rows += html_cell(escaped(amounts[k].text(t)), "n");
+    rows += "<tr>" + html_cell("<b>" + std::to_string(i + 1) + "</b>", "n") + cell(signs[i].name);
+    for (const Amount& amount : amounts) rows += html_cell(escaped(amount.text(t)), "n");
     rows += "</tr>\n";
   }
   return table(t,
@@ -118,13 +102,11 @@ std::string signs_table(const PageParts& parts, double height) {
 std::string observers_table(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
-  for (const Json& sight : parts.a["sights"]) {
-    if (!is_observer(sight) || text_in(sight, "verdict") == "hidden by the building") continue;
-    rows += "<tr>" + verdict_cell(t, "sight", text_in(sight, "verdict")) +
-            cell(subject_text(t, sight["from"])) + cell(text_in(sight, "sign")) +
-            number_cell(t, sight["distance"]["value"], "m") +
-            (sight.contains("reading_level") ? number_cell(t, sight["reading_level"]["value"])
-                                             : html_cell("–", "n")) +
+  for (const SightRecord& sight : parts.a.sights) {
+    if (!sight.by_observer() || sight.verdict == SightVerdict::hidden) continue;
+    rows += "<tr>" + verdict_cell(t, "sight", name_of(sight.verdict)) +
+            cell(t.subject(sight.from)) + cell(sight.sign) + number_cell(t, sight.distance_m, "m") +
+            (sight.seen ? number_cell(t, sight.seen->look.reading_level.value) : no_number_cell()) +
             "</tr>\n";
   }
   return table(
@@ -138,10 +120,9 @@ constexpr std::array<std::pair<const char*, const char*>, 3> picture_kinds{
     {{"_human", "view.human"}, {"_luminance", "view.luminance"}, {"", "view.plain"}}};
 
 /// Whether a picture shows another scene or scenario, in which smoke may hide less.
-bool is_of_another_state(const Json& a, const ReportPicture& picture) {
+bool is_of_another_state(const AssessmentRecord& a, const ReportPicture& picture) {
   const auto scene = png_text(picture.png, "Scene"), scenario = png_text(picture.png, "Scenario");
-  return (scene && *scene != text_in(a["scene"], "name")) ||
-         (scenario && *scenario != text_in(a["scene"], "scenario"));
+  return (scene && *scene != a.scene.name) || (scenario && *scenario != a.scene.scenario);
 }
 
 /// Pictures of the judged state by camera and kind.
@@ -167,27 +148,26 @@ CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
 /// where it is seen worst.
 std::string suggested_cameras(const PageParts& parts) {
   constexpr size_t most = 3;
-  std::map<std::string, const Json*> worst;  // by sign
-  for (const Json& sight : parts.a["sights"]) {
-    const size_t rank = rank_of(sight);
+  std::map<std::string, const SightRecord*> worst;  // by sign
+  for (const SightRecord& sight : parts.a.sights) {
+    const size_t rank = rank_of(sight.verdict);
     if (rank == 0 || rank > 3) continue;  // legible, or not visible from here
-    const auto known = worst.try_emplace(text_in(sight, "sign"), &sight).first;
-    if (rank > rank_of(*known->second)) known->second = &sight;
+    const auto known = worst.try_emplace(sight.sign, &sight).first;
+    if (rank > rank_of(known->second->verdict)) known->second = &sight;
   }
   std::string out;
   size_t count = 0;
-  for (const Json& sign : parts.a["signs"]) {
-    const auto at = worst.find(text_in(sign, "name"));
+  for (const SignRecord& sign : parts.a.signs) {
+    const auto at = worst.find(sign.name);
     if (at == worst.end() || ++count > most) continue;
-    const auto vector = [](const Json& v) {
-      return fmt::format("[{:g}, {:g}, {:g}]", v[0].get<double>(), v[1].get<double>(),
-                         v[2].get<double>());
+    const auto vector = [](const glm::dvec3& v) {
+      return fmt::format("[{:g}, {:g}, {:g}]", v.x, v.y, v.z);
     };
     out += fmt::format(
         "{}[[camera]]\nname = {}\neye = {}\ntarget = {}\nvertical_fov_deg = 30\nwidth = "
         "640\nheight = 360\n",
-        out.empty() ? "" : "\n", escaped(Json(at->first).dump()), vector((*at->second)["eye"]),
-        vector(sign["position"]));
+        out.empty() ? "" : "\n", escaped(Json(at->first).dump()), vector(at->second->eye),
+        vector(sign.position));
   }
   return out;
 }
@@ -196,18 +176,17 @@ std::string suggested_cameras(const PageParts& parts) {
 std::string how_to_make_pictures(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string out;
-  if (parts.a["cameras"].empty()) {
+  if (parts.a.cameras.empty()) {
     out = paragraph(t("sights.no_cameras"), "note");
     const std::string cameras = suggested_cameras(parts);
     if (!cameras.empty())
       out += paragraph(t("sights.add_cameras")) + "<pre>" + cameras + "</pre>\n";
     return out;
   }
-  const std::string run = "luxodus run " + text_in(parts.a["scene"], "file") +
-                          (text_in(parts.a["scene"], "scenario").empty()
-                               ? ""
-                               : " --scenario \"" + text_in(parts.a["scene"], "scenario") + "\"") +
-                          " --out " + parts.folder + "/run";
+  const std::string run =
+      "luxodus run " + parts.a.scene.file +
+      (parts.a.scene.scenario.empty() ? "" : " --scenario \"" + parts.a.scene.scenario + "\"") +
+      " --out " + parts.folder + "/run";
   return paragraph(t("sights.no_pictures")) + "<pre>" + escaped(run) + "\n" +
          escaped("luxodus report " + parts.folder) + "</pre>\n";
 }
@@ -233,12 +212,12 @@ std::string pictures(const PageParts& parts) {
 std::string sweep_table(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::vector<double> factors;
-  std::map<std::string, std::map<double, const Json*>> by_sign;
-  for (const Json& row : parts.a["sweep"]) {
-    const double factor = row["smoke_factor"].get<double>();
+  std::map<std::string, std::map<double, const SweepRow*>> by_sign;
+  for (const SweepRow& row : parts.a.sweep) {
+    const double factor = row.factor;
     if (std::find(factors.begin(), factors.end(), factor) == factors.end())
       factors.push_back(factor);
-    by_sign[text_in(row, "sign")][factor] = &row;
+    by_sign[row.sign][factor] = &row;
   }
   if (factors.empty()) return "";
   std::string out = subheading(t("sights.sweep")) + paragraph(t("sights.sweep_lead")) +
@@ -250,10 +229,8 @@ std::string sweep_table(const PageParts& parts) {
     for (const double factor : factors) {
       const auto at = rows.find(factor);
       const bool known = at != rows.end();
-      out += html_cell(known ? escaped(t.say("sights.of", (*at->second)["legible"].get<int64_t>(),
-                                             (*at->second)["places"].get<int64_t>()))
-                             : "–",
-                       "n");
+      out += html_cell(
+          known ? escaped(t.say("sights.of", at->second->legible, at->second->places)) : "–", "n");
     }
     out += "</tr>\n";
   }
@@ -262,23 +239,20 @@ std::string sweep_table(const PageParts& parts) {
 
 /// A place where a rule of thumb and the simulation differ.
 struct Difference {
-  const Json* sight;
+  const SightRecord* sight;
   double by;  // logarithm of the ratio of the visibility level to the reading level
 };
 
-std::vector<Difference> differences(const Json& sights) {
+std::vector<Difference> differences(const std::vector<SightRecord>& sights) {
   std::vector<Difference> out;
-  for (const Json& sight : sights) {
-    const std::string verdict = text_in(sight, "verdict");
-    const bool read = verdict == "legible";
-    if (!sight.contains("jin") ||
-        (!read && verdict != "visible but not legible" && verdict != "invisible"))
+  for (const SightRecord& sight : sights) {
+    const bool read = sight.verdict == SightVerdict::legible;
+    if (!sight.seen || (!read && sight.verdict != SightVerdict::visible &&
+                        sight.verdict != SightVerdict::invisible))
       continue;
-    if (sight["jin"]["legible"].get<bool>() == read &&
-        sight["viewing_distance"]["within"].get<bool>() == read)
-      continue;
-    const Json& level = sight["reading_level"]["value"];
-    const double known = level.is_number() ? std::abs(level.get<double>()) : 0;
+    if (sight.seen->jin.legible == read && sight.seen->viewing_distance.within == read) continue;
+    const double level = sight.seen->look.reading_level.value;
+    const double known = std::isfinite(level) ? std::abs(level) : 0;
     out.push_back({&sight, std::abs(std::log(std::max(known, 1e-6) / reading_level))});
   }
   std::stable_sort(out.begin(), out.end(),
@@ -286,37 +260,34 @@ std::vector<Difference> differences(const Json& sights) {
   return out;
 }
 
-std::string measured(const Texts& t, const Json& sight, const char* key) {
-  const auto at = sight.find(key);
-  if (at == sight.end() || !(*at)["value"].is_number()) return "–";
-  std::string out = t.number((*at)["value"].get<double>());
-  if (at->contains("standard_error") && (*at)["standard_error"].is_number())
-    out += " ± " + t.number((*at)["standard_error"].get<double>(), 2);
-  return out;
+std::string measured(const Texts& t, const Uncertain& number) {
+  if (!std::isfinite(number.value)) return "–";
+  return t.number(number.value) +
+         (std::isfinite(number.error) ? " ± " + t.number(number.error, 2) : "");
 }
 
 std::string thumb_table(const PageParts& parts, const std::vector<Difference>& all, size_t most) {
   const Texts& t = parts.texts;
   std::string rows;
   for (size_t i = 0; i < std::min(all.size(), most); ++i) {
-    const Json& s = *all[i].sight;
-    const bool read = text_in(s, "verdict") == "legible";
+    const SightRecord& s = *all[i].sight;
+    const LookRecord& look = s.seen->look;
+    const bool read = s.verdict == SightVerdict::legible;
     const auto said = [&](bool rule, const char* yes, const char* no) {
       return html_cell((rule != read ? "<b>" : "") + escaped(t(rule ? yes : no)) +
                        (rule != read ? "</b>" : ""));
     };
-    const Json& e = s["eye"];
     rows +=
-        "<tr>" + verdict_cell(t, "sight", text_in(s, "verdict")) + cell(text_in(s, "sign")) +
-        html_cell(escaped(subject_text(t, s["from"])) + "<br>" +
-                  escaped(t.place(e[0].get<double>(), e[1].get<double>(), e[2].get<double>()))) +
-        number_cell(t, s["distance"]["value"], "m") +
-        html_cell(escaped(measured(t, s, "reading_level")), "n") +
-        html_cell(escaped(measured(t, s, "legend") + " / " + measured(t, s, "ground")), "n") +
-        number_cell(t, s["transmission"]["value"]) +
-        said(s["jin"]["legible"].get<bool>(), "thumb.legible", "thumb.too_far") +
-        said(s["viewing_distance"]["within"].get<bool>(), "thumb.near", "thumb.too_far") +
-        "</tr>\n";
+        "<tr>" + verdict_cell(t, "sight", name_of(s.verdict)) + cell(s.sign) +
+        html_cell(escaped(t.subject(s.from)) + "<br>" +
+                  escaped(t.place(s.eye.x, s.eye.y, s.eye.z))) +
+        number_cell(t, s.distance_m, "m") +
+        html_cell(escaped(measured(t, look.reading_level)), "n") +
+        html_cell(escaped(measured(t, look.legend_cd_m2) + " / " + measured(t, look.ground_cd_m2)),
+                  "n") +
+        number_cell(t, look.transmission) +
+        said(s.seen->jin.legible, "thumb.legible", "thumb.too_far") +
+        said(s.seen->viewing_distance.within, "thumb.near", "thumb.too_far") + "</tr>\n";
   }
   return table(
       t,
@@ -329,7 +300,7 @@ std::string thumb_table(const PageParts& parts, const std::vector<Difference>& a
 
 std::string sights_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  if (parts.a["sights"].empty()) return paragraph(t("sights.none"));
+  if (parts.a.sights.empty()) return paragraph(t("sights.none"));
   const auto heights = heights_of(parts.a);
   std::string out = paragraph(t("sights.lead"));
   out += heights_table(parts, heights);
@@ -349,14 +320,14 @@ std::string sights_section(const PageParts& parts) {
 
 std::string thumb_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const auto all = differences(parts.a["sights"]);
+  const auto all = differences(parts.a.sights);
   if (all.empty()) return paragraph(t("thumb.none"));
   return paragraph(t.say("thumb.lead", all.size(), std::min(all.size(), thumb_places))) +
          thumb_table(parts, all, thumb_places);
 }
 
 std::string thumb_appendix(const PageParts& parts) {
-  const auto all = differences(parts.a["sights"]);
+  const auto all = differences(parts.a.sights);
   if (all.size() <= thumb_places) return "";
   std::string out = thumb_table(parts, all, appendix_rows);
   if (all.size() > appendix_rows)
@@ -373,11 +344,11 @@ std::string signs_appendix(const PageParts& parts) {
     out += subheading(t.say("sights.eyes_at", t.fixed(height))) + signs_table(parts, height);
   const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm / 2 - 3, 70});
   out += subheading(t.say("sights.maps", t.fixed(heights.front()))) + "<div class=\"maps\">\n";
-  const Json& signs = parts.a["signs"];
+  const auto& signs = parts.a.signs;
   for (size_t i = 0; i < signs.size(); ++i) {
-    const size_t level = parts.schedule.level_of(signs[i]["position"][2].get<double>());
-    out += figure(plans.sights(level, heights.front(), text_in(signs[i], "name")).svg,
-                  std::to_string(i + 1) + " · " + text_in(signs[i], "name"));
+    const size_t level = parts.schedule.level_of(signs[i].position.z);
+    out += figure(plans.sights(level, heights.front(), signs[i].name).svg,
+                  std::to_string(i + 1) + " · " + signs[i].name);
   }
   return out + "</div>\n";
 }

@@ -41,16 +41,6 @@ const char* isolux_layer(double lux) {
   return lux < 0.7 ? "ISOLUX_0_5" : lux < 2 ? "ISOLUX_1" : lux < 7 ? "ISOLUX_5" : "ISOLUX_10";
 }
 
-glm::dvec2 point(const Json& p) {
-  return {p[0].get<double>(), p[1].get<double>()};
-}
-
-std::vector<glm::dvec2> points(const Json& path) {
-  std::vector<glm::dvec2> out;
-  for (const Json& p : path) out.push_back(point(p));
-  return out;
-}
-
 std::string block_of(const LuminaireType& type) {
   return "LUMINAIRE_" + type.letter;
 }
@@ -85,54 +75,57 @@ std::vector<std::string> block_names(const Schedule& schedule) {
   return out;
 }
 
-void draw_luminaires(DxfDrawing& out, const Json& a, const Schedule& schedule, size_t level) {
-  for (size_t i = 0; i < a["luminaires"].size(); ++i) {
-    const Json &one = a["luminaires"][i], &p = one["position"];
-    const double z = p[2].get<double>();
+void draw_luminaires(DxfDrawing& out, const AssessmentRecord& a, const Schedule& schedule,
+                     size_t level) {
+  for (size_t i = 0; i < a.luminaires.size(); ++i) {
+    const LuminaireRecord& one = a.luminaires[i];
+    const glm::dvec3& p = one.position;
+    const double z = p.z;
     if (schedule.level_of(z) != level) continue;
     const LuminaireType& type = schedule.type_of(i);
-    out.insert("LUMINAIRES", block_of(type), {point(p), z}, 0,
-               {{"NAME", one["name"].get<std::string>()}, {"TYPE", type.letter}});
-    out.text("TEXT", point(p) + glm::dvec2(lamp_m + 0.05, -letter_m / 2),
+    out.insert("LUMINAIRES", block_of(type), p, 0, {{"NAME", one.name}, {"TYPE", type.letter}});
+    out.text("TEXT", glm::dvec2(p) + glm::dvec2(lamp_m + 0.05, -letter_m / 2),
              fmt::format("{} {:.2f}", type.letter, schedule.above_floor(z)), letter_m);
   }
 }
 
-void draw_signs(DxfDrawing& out, const Json& a, const Schedule& schedule, size_t level) {
-  for (size_t i = 0; i < a["signs"].size(); ++i) {
-    const Json &one = a["signs"][i], &p = one["position"], &f = one["facing"];
-    const double z = p[2].get<double>();
+void draw_signs(DxfDrawing& out, const AssessmentRecord& a, const Schedule& schedule,
+                size_t level) {
+  for (size_t i = 0; i < a.signs.size(); ++i) {
+    const SignRecord& one = a.signs[i];
+    const glm::dvec3 &p = one.position, &f = one.facing;
+    const double z = p.z;
     if (schedule.level_of(z) != level) continue;
-    const double turn = std::atan2(f[1].get<double>(), f[0].get<double>()) * 180 / std::numbers::pi;
-    const auto file = one["file"].get<std::string>();
-    out.insert("SIGNS", sign_block, {point(p), z}, turn,
-               {{"NAME", one["name"].get<std::string>()},
-                {"TYPE", one["lighting"].get<std::string>()},
+    const double turn = std::atan2(f.y, f.x) * 180 / std::numbers::pi;
+    out.insert("SIGNS", sign_block, p, turn,
+               {{"NAME", one.name},
+                {"TYPE", one.lighting},
                 {"NUMBER", std::to_string(i + 1)},
-                {"FACE", file.empty() ? one["text"].get<std::string>() : file}});
-    out.text("TEXT", point(p) - 0.45 * point(f), std::to_string(i + 1), letter_m);
+                {"FACE", one.file.empty() ? one.text : one.file}});
+    out.text("TEXT", glm::dvec2(p) - 0.45 * glm::dvec2(f), std::to_string(i + 1), letter_m);
   }
 }
 
-void draw_places(DxfDrawing& out, const Json& a, const Schedule& schedule, size_t level) {
-  for (const Json& route : a["places"]["routes"]) {
-    const bool here = std::any_of(route["path"].begin(), route["path"].end(), [&](const Json& p) {
-      return schedule.level_of(p[2].get<double>()) == level;
+void draw_places(DxfDrawing& out, const AssessmentRecord& a, const Schedule& schedule,
+                 size_t level) {
+  for (const RouteRecord& route : a.places.routes) {
+    const bool here = std::any_of(route.path.begin(), route.path.end(), [&](const glm::dvec3& p) {
+      return schedule.level_of(p.z) == level;
     });
     if (!here) continue;
-    const auto path = points(route["path"]);
+    const std::vector<glm::dvec2> path(route.path.begin(), route.path.end());
     out.polyline("ROUTES", path, false);
     const glm::dvec2 way = glm::normalize(path.back() - path[path.size() - 2]);
     const glm::dvec2 aside(-way.y, way.x);
     for (const double side : {-0.15, 0.15})
       out.line("ROUTES", path.back(), path.back() - 0.4 * way + side * aside);
-    out.text("TEXT", path.front() + glm::dvec2(0, 0.1), route["name"], letter_m);
+    out.text("TEXT", path.front() + glm::dvec2(0, 0.1), route.name, letter_m);
   }
-  for (const Json& area : a["places"]["areas"]) {
-    if (schedule.level_of(area["z"].get<double>()) != level) continue;
-    const auto outline = points(area["outline"]);
+  for (const AreaRecord& area : a.places.areas) {
+    if (schedule.level_of(area.z_m) != level) continue;
+    const auto& outline = area.outline;
     out.polyline("AREAS", outline, true);
-    out.text("TEXT", outline.front() + glm::dvec2(0.1, 0.1), area["name"], letter_m);
+    out.text("TEXT", outline.front() + glm::dvec2(0.1, 0.1), area.name, letter_m);
   }
 }
 
@@ -147,19 +140,19 @@ void scale(DxfDrawing& out, glm::dvec2 low) {
 
 }  // namespace
 
-Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule& schedule,
-                            size_t number) {
-  const Json& level = a["plan"]["levels"][number];
+Result<void> write_plan_dxf(const fs::path& path, const AssessmentRecord& a,
+                            const Schedule& schedule, size_t number) {
+  const PlanLevel& level = a.plan.levels[number];
   glm::dvec2 low(1e300), high(-1e300);
   const auto take = [&](const glm::dvec2& p) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   };
-  for (const Json& wall : level["walls"]) {
-    take({wall[0].get<double>(), wall[1].get<double>()});
-    take({wall[2].get<double>(), wall[3].get<double>()});
+  for (const auto& [from, to] : level.walls) {
+    take(from);
+    take(to);
   }
-  for (const Json& p : level["points"]) take(point(p));
+  for (const PlanPoint& p : level.points) take(p.place);
   if (low.x > high.x) low = high = {0, 0};
   // dxflib writes directly to a file, so it writes a draft that replaces the plan when complete.
   const fs::path draft = path.string() + fmt::format(".{}.tmp", ::getpid());
@@ -172,11 +165,8 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
     out.begin(low, high, layers, block_names(schedule));
     blocks(out, schedule);
     out.begin_entities();
-    for (const auto& [kind, layer] :
-         {std::pair{"walls", "WALLS"}, std::pair{"furniture", "FURNITURE"}})
-      for (const Json& l : level[kind])
-        out.line(layer, {l[0].get<double>(), l[1].get<double>()},
-                 {l[2].get<double>(), l[3].get<double>()});
+    for (const auto& [from, to] : level.walls) out.line("WALLS", from, to);
+    for (const auto& [from, to] : level.furniture) out.line("FURNITURE", from, to);
     draw_places(out, a, schedule, number);
     draw_luminaires(out, a, schedule, number);
     draw_signs(out, a, schedule, number);

@@ -28,10 +28,6 @@ constexpr const char* area_style =
     "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.3\" stroke-dasharray=\"0.3 1\" "
     "stroke-linecap=\"round\"";
 
-double number_of(const Json& value) {
-  return value.get<double>();
-}
-
 /// Boxes that are already drawn, so that labels do not overlap them or each other.
 class LabelSpace {
  public:
@@ -56,37 +52,33 @@ class LabelSpace {
   std::vector<Box> boxes_;
 };
 
-std::string lines_path(const Json& lines, const Sheet& sheet, const char* style) {
+std::string lines_path(const std::vector<DrawnLine>& lines, const Sheet& sheet, const char* style) {
   std::string path;
-  for (const Json& line : lines)
-    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(number_of(line[0])),
-                        sheet.y(number_of(line[1])), sheet.x(number_of(line[2])),
-                        sheet.y(number_of(line[3])));
+  for (const auto& [from, to] : lines)
+    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(from.x), sheet.y(from.y),
+                        sheet.x(to.x), sheet.y(to.y));
   return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"none\" " + style + "/>\n";
 }
 
 /// A picture whose pixels span 0 to 1 along its edges, the upper row first.
-std::string backdrop_picture(const Json& one, const Sheet& sheet) {
-  const auto number = [&](const char* key, size_t k) { return number_of(one[key][k]); };
+std::string backdrop_picture(const BackdropRecord& one, const Sheet& sheet) {
+  const glm::dvec2 across = one.across.value_or(glm::dvec2(0)), up = one.up.value_or(across),
+                   upper = one.corner.value_or(across) + up;
   return fmt::format(
       "<image width=\"1\" height=\"1\" preserveAspectRatio=\"none\" transform=\"matrix({:.5f} "
       "{:.5f} {:.5f} {:.5f} {:.3f} {:.3f})\" href=\"data:image/png;base64,{}\"/>\n",
-      sheet.mm(number("across", 0)), -sheet.mm(number("across", 1)), -sheet.mm(number("up", 0)),
-      sheet.mm(number("up", 1)), sheet.x(number("corner", 0) + number("up", 0)),
-      sheet.y(number("corner", 1) + number("up", 1)), one["png"].text());
+      sheet.mm(across.x), -sheet.mm(across.y), -sheet.mm(up.x), sheet.mm(up.y), sheet.x(upper.x),
+      sheet.y(upper.y), one.png);
 }
 
 /// Backdrop drawings of a level, faint, clipped at the edge of the plan.
-std::string backdrops(const Json& a, size_t level, const Sheet& sheet) {
-  const auto all = a["plan"].find("backdrops");
-  if (all == a["plan"].end() || all->is_null()) return "";
-  const double floor = number_of(a["plan"]["levels"][level]["floor"]);
+std::string backdrops(const AssessmentRecord& a, size_t level, const Sheet& sheet) {
+  const double floor = a.plan.levels[level].floor_m;
   std::string pictures, lines;  // drawn after pictures, which would hide them
-  for (const Json& one : *all) {
-    if (floor < number_of(one["floors"][0]) || floor > number_of(one["floors"][1])) continue;
-    const auto drawing = one.find("lines");
-    if (drawing != one.end() && !drawing->is_null())
-      lines += lines_path(*drawing, sheet, backdrop_style);
+  for (const BackdropRecord& one : a.plan.backdrops) {
+    if (floor < one.floors.x || floor > one.floors.y) continue;
+    if (one.lines)
+      lines += lines_path(*one.lines, sheet, backdrop_style);
     else
       pictures += backdrop_picture(one, sheet);
   }
@@ -98,16 +90,16 @@ std::string backdrops(const Json& a, size_t level, const Sheet& sheet) {
          pictures + lines + "</svg>\n";
 }
 
-std::string building(const Json& level, const Sheet& sheet) {
-  return "<g class=\"furniture\">" + lines_path(level["furniture"], sheet, furniture_style) +
-         "</g>\n<g class=\"walls\">" + lines_path(level["walls"], sheet, wall_style) + "</g>\n";
+std::string building(const PlanLevel& level, const Sheet& sheet) {
+  return "<g class=\"furniture\">" + lines_path(level.furniture, sheet, furniture_style) +
+         "</g>\n<g class=\"walls\">" + lines_path(level.walls, sheet, wall_style) + "</g>\n";
 }
 
-std::string path_of(const Json& points, const Sheet& sheet, bool closed) {
+template <class Point>
+std::string path_of(const std::vector<Point>& points, const Sheet& sheet, bool closed) {
   std::string out;
-  for (const Json& p : points)
-    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", sheet.x(number_of(p[0])),
-                       sheet.y(number_of(p[1])));
+  for (const Point& p : points)
+    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", sheet.x(p.x), sheet.y(p.y));
   return out + (closed ? "Z" : "");
 }
 
@@ -119,53 +111,51 @@ std::string route_end(double x, double y, double turn) {
 }
 
 /// Areas, and routes with an arrow at their ends.
-std::string places(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+std::string places(const AssessmentRecord& a, const Schedule& schedule, size_t level,
+                   const Sheet& sheet) {
   std::string out = "<g class=\"places\">\n";
-  for (const Json& area : a["places"]["areas"]) {
-    if (schedule.level_of(number_of(area["z"])) != level) continue;
-    out += "<path d=\"" + path_of(area["outline"], sheet, true) + "\" " + area_style + "/>\n";
+  for (const AreaRecord& area : a.places.areas) {
+    if (schedule.level_of(area.z_m) != level) continue;
+    out += "<path d=\"" + path_of(area.outline, sheet, true) + "\" " + area_style + "/>\n";
   }
-  for (const Json& route : a["places"]["routes"]) {
-    const Json& path = route["path"];
-    const bool here = std::any_of(path.begin(), path.end(), [&](const Json& p) {
-      return schedule.level_of(number_of(p[2])) == level;
+  for (const RouteRecord& route : a.places.routes) {
+    const auto& path = route.path;
+    const bool here = std::any_of(path.begin(), path.end(), [&](const glm::dvec3& p) {
+      return schedule.level_of(p.z) == level;
     });
     if (!here) continue;
     out += "<path d=\"" + path_of(path, sheet, false) + "\" " + route_style + "/>\n";
-    const Json &end = path[path.size() - 1], &before = path[path.size() - 2];
-    const double dx = sheet.x(number_of(end[0])) - sheet.x(number_of(before[0]));
-    const double dy = sheet.y(number_of(end[1])) - sheet.y(number_of(before[1]));
-    out += route_end(sheet.x(number_of(end[0])), sheet.y(number_of(end[1])),
-                     std::atan2(dy, dx) * 180 / std::numbers::pi);
+    const glm::dvec3 &end = path[path.size() - 1], &before = path[path.size() - 2];
+    const double dx = sheet.x(end.x) - sheet.x(before.x);
+    const double dy = sheet.y(end.y) - sheet.y(before.y);
+    out += route_end(sheet.x(end.x), sheet.y(end.y), std::atan2(dy, dx) * 180 / std::numbers::pi);
   }
   return out + "</g>\n";
 }
 
 /// Names of areas and routes; a route's name is at a third of its first leg, so that names of
 /// opposite routes do not overlap.
-std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
-                        LabelSpace& space) {
+std::string place_names(const AssessmentRecord& a, const Schedule& schedule, size_t level,
+                        const Sheet& sheet, LabelSpace& space) {
   std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
-  for (const Json& area : a["places"]["areas"]) {
-    if (schedule.level_of(number_of(area["z"])) != level) continue;
+  for (const AreaRecord& area : a.places.areas) {
+    if (schedule.level_of(area.z_m) != level) continue;
     // In the lower left corner of the outline, away from the luminaires in its middle.
-    const Json* corner = &area["outline"][0];
-    for (const Json& p : area["outline"])
-      if (number_of(p[0]) + number_of(p[1]) < number_of((*corner)[0]) + number_of((*corner)[1]))
-        corner = &p;
-    out += text_at(sheet.x(number_of((*corner)[0])) + 1.5, sheet.y(number_of((*corner)[1])) - 1.5,
-                   area["name"]);
+    const glm::dvec2 corner =
+        *std::min_element(area.outline.begin(), area.outline.end(),
+                          [](const auto& p, const auto& q) { return p.x + p.y < q.x + q.y; });
+    out += text_at(sheet.x(corner.x) + 1.5, sheet.y(corner.y) - 1.5, area.name);
   }
-  for (const Json& route : a["places"]["routes"]) {
-    const Json &from = route["path"][0], &to = route["path"][1];
-    if (schedule.level_of(number_of(from[2])) != level) continue;
-    const double x0 = sheet.x(number_of(from[0])), y0 = sheet.y(number_of(from[1]));
-    const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
+  for (const RouteRecord& route : a.places.routes) {
+    const glm::dvec3 &from = route.path[0], &to = route.path[1];
+    if (schedule.level_of(from.z) != level) continue;
+    const double x0 = sheet.x(from.x), y0 = sheet.y(from.y);
+    const double dx = sheet.x(to.x) - x0, dy = sheet.y(to.y) - y0;
     double turn = std::atan2(dy, dx) * 180 / std::numbers::pi;
     if (turn > 90.01 || turn <= -89.99) turn += 180;
     const double radians = turn * std::numbers::pi / 180,
                  side = 4.4;  // of the text's middle from the line
-    const double width = text_width_mm(route["name"], text_mm);
+    const double width = text_width_mm(route.name, text_mm);
     const double c = std::abs(std::cos(radians)), s = std::abs(std::sin(radians));
     double along = 0.3;
     for (const double share : {0.3, 0.2, 0.4, 0.25, 0.35, 0.5, 0.6, 0.7, 0.8}) {
@@ -176,7 +166,7 @@ std::string place_names(const Json& a, const Schedule& schedule, size_t level, c
       along = share;
       break;
     }
-    out += text_at(0, 5.2, route["name"],
+    out += text_at(0, 5.2, route.name,
                    fmt::format("text-anchor=\"middle\" transform=\"translate({:.2f} {:.2f}) "
                                "rotate({:.1f})\"",
                                x0 + along * dx, y0 + along * dy, turn)
@@ -231,8 +221,8 @@ std::string luminaire_label(const std::string& text, double x, double y, bool em
 }
 
 /// Symbols of luminaires; with `labels` also letters and heights, in free positions.
-std::string luminaires(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
-                       const Sheet& sheet, LabelSpace* labels) {
+std::string luminaires(const AssessmentRecord& a, const Schedule& schedule, const Texts& texts,
+                       size_t level, const Sheet& sheet, LabelSpace* labels) {
   std::string out = "<g class=\"luminaires\">\n";
   struct Label {
     std::string text;
@@ -240,17 +230,16 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
     bool emergency;
   };
   std::vector<Label> wanted;
-  const Json& all = a["luminaires"];
+  const auto& all = a.luminaires;
   for (size_t i = 0; i < all.size(); ++i) {
-    const double z = number_of(all[i]["position"][2]);
+    const double z = all[i].position.z;
     if (schedule.level_of(z) != level) continue;
     const LuminaireType& type = schedule.type_of(i);
-    const double x = sheet.x(number_of(all[i]["position"][0]));
-    const double y = sheet.y(number_of(all[i]["position"][1]));
+    const double x = sheet.x(all[i].position.x);
+    const double y = sheet.y(all[i].position.y);
     const bool emergency = type.emergency();
-    out +=
-        fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(all[i]["name"].get<std::string>()),
-                    luminaire_symbol(x, y, emergency));
+    out += fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(all[i].name),
+                       luminaire_symbol(x, y, emergency));
     if (labels == nullptr) continue;
     labels->reserve(x, y, 2.2, 2.2);
     wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
@@ -267,20 +256,20 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
 }
 
 /// Position of a sign's number [mm]: beside the arrow, away from the direction that the sign faces.
-std::array<double, 2> sign_number_place(const Json& sign, const Sheet& sheet) {
-  const double fx = number_of(sign["facing"][0]), fy = -number_of(sign["facing"][1]);
-  return {sheet.x(number_of(sign["position"][0])) - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6),
-          sheet.y(number_of(sign["position"][1])) - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0)};
+std::array<double, 2> sign_number_place(const SignRecord& sign, const Sheet& sheet) {
+  const double fx = sign.facing.x, fy = -sign.facing.y;
+  return {sheet.x(sign.position.x) - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6),
+          sheet.y(sign.position.y) - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0)};
 }
 
-void reserve_signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
-                   LabelSpace& space) {
-  for (const Json& sign : a["signs"]) {
-    if (schedule.level_of(number_of(sign["position"][2])) != level) continue;
+void reserve_signs(const AssessmentRecord& a, const Schedule& schedule, size_t level,
+                   const Sheet& sheet, LabelSpace& space) {
+  for (const SignRecord& sign : a.signs) {
+    if (schedule.level_of(sign.position.z) != level) continue;
     const auto number = sign_number_place(sign, sheet);
     space.reserve(number[0], number[1], 4.2, 4.2);
-    space.reserve(sheet.x(number_of(sign["position"][0])) + 2 * number_of(sign["facing"][0]),
-                  sheet.y(number_of(sign["position"][1])) - 2 * number_of(sign["facing"][1]), 4, 4);
+    space.reserve(sheet.x(sign.position.x) + 2 * sign.facing.x,
+                  sheet.y(sign.position.y) - 2 * sign.facing.y, 4, 4);
   }
 }
 
@@ -302,21 +291,20 @@ std::string sign_number(double x, double y, size_t number) {
 }
 
 /// A circled number for each sign, and an arrow in the direction that it faces.
-std::string signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
-                  const std::string& only = "") {
+std::string signs(const AssessmentRecord& a, const Schedule& schedule, size_t level,
+                  const Sheet& sheet, const std::string& only = "") {
   std::string out = "<g class=\"signs\">\n";
-  const Json& all = a["signs"];
+  const auto& all = a.signs;
   for (size_t i = 0; i < all.size(); ++i) {
-    const Json& position = all[i]["position"];
-    if (schedule.level_of(number_of(position[2])) != level) continue;
-    if (!only.empty() && all[i]["name"].get<std::string>() != only) continue;
-    const double x = sheet.x(number_of(position[0])), y = sheet.y(number_of(position[1]));
-    const double fx = number_of(all[i]["facing"][0]), fy = -number_of(all[i]["facing"][1]);
+    const glm::dvec3& position = all[i].position;
+    if (schedule.level_of(position.z) != level) continue;
+    if (!only.empty() && all[i].name != only) continue;
+    const double x = sheet.x(position.x), y = sheet.y(position.y);
+    const double fx = all[i].facing.x, fy = -all[i].facing.y;
     const double turn = std::atan2(fy, fx) * 180 / std::numbers::pi;
     const auto [cx, cy] = sign_number_place(all[i], sheet);
-    out += fmt::format("<g><title>{}</title>", xml_escape(all[i]["name"].get<std::string>())) +
-           sign_arrow(x, y, turn, all[i]["double_sided"].get<bool>()) + sign_number(cx, cy, i + 1) +
-           "</g>\n";
+    out += fmt::format("<g><title>{}</title>", xml_escape(all[i].name)) +
+           sign_arrow(x, y, turn, all[i].double_sided) + sign_number(cx, cy, i + 1) + "</g>\n";
   }
   return out + "</g>\n";
 }
@@ -328,19 +316,20 @@ std::string emphasis_symbol(double x, double y) {
       x, y - 1.3);
 }
 
-std::string emphasis(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+std::string emphasis(const AssessmentRecord& a, const Schedule& schedule, size_t level,
+                     const Sheet& sheet) {
   std::string out;
-  for (const Json& point : a["places"]["emphasis"]) {
-    const Json& p = point["position"];
-    if (schedule.level_of(number_of(p[2])) != level) continue;
-    out += fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(point["name"].get<std::string>()),
-                       emphasis_symbol(sheet.x(number_of(p[0])), sheet.y(number_of(p[1]))));
+  for (const EmphasisRecord& point : a.places.emphasis) {
+    const glm::dvec3& p = point.position;
+    if (schedule.level_of(p.z) != level) continue;
+    out += fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(point.name),
+                       emphasis_symbol(sheet.x(p.x), sheet.y(p.y)));
   }
   return out;
 }
 
 /// Scale bar in round metres, scale, and north arrow.
-std::string foot(const Json& a, const Sheet& sheet, const Texts& texts) {
+std::string foot(const AssessmentRecord& a, const Sheet& sheet, const Texts& texts) {
   const double y = sheet.height() + 5;
   double bar = 1;
   for (const double metres : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1000.0})
@@ -355,7 +344,7 @@ std::string foot(const Json& a, const Sheet& sheet, const Texts& texts) {
          text_at(border_mm + sheet.mm(bar), y + 4.4, texts.number(bar) + " m",
                  "text-anchor=\"middle\"") +
          text_at(border_mm + sheet.mm(bar) + 6, y + 1.5, fmt::format("1:{:g}", sheet.scale()));
-  const double turn = number_of(a["project"]["north_deg"]);
+  const double turn = a.project.north_deg;
   out += fmt::format(
              "<g class=\"north\" transform=\"translate({:.2f} {:.2f}) rotate({:g})\"><circle "
              "r=\"3.4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"0.25\"/><path d=\"M0 "
@@ -420,35 +409,31 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
          labels;
 }
 
-std::string grid_values(const Json& level, const Sheet& sheet, const Texts& texts) {
+std::string grid_values(const PlanLevel& level, const Sheet& sheet, const Texts& texts) {
   std::string out = "<g class=\"values\" fill=\"#333\">\n";
   // If numbers would overlap, only the first in each cell is drawn.
   std::map<std::pair<long, long>, bool> taken;
-  for (const Json& p : level["points"]) {
-    const double x = sheet.x(number_of(p[0])), y = sheet.y(number_of(p[1]));
+  for (const auto& [p, lux] : level.points) {
+    const double x = sheet.x(p.x), y = sheet.y(p.y);
     const std::pair cell{std::lround(x / 4.2), std::lround(y / 2.2)};
     if (!taken.emplace(cell, true).second) continue;
-    out += text_at(x, y + 0.6, texts.number(number_of(p[3]), 2), "text-anchor=\"middle\"", 1.6);
+    out += text_at(x, y + 0.6, texts.number(p[3], 2), "text-anchor=\"middle\"", 1.6);
   }
   return out + "</g>\n";
 }
-
-/// Verdicts on a place, from best to worst.
-constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible but not legible",
-                                           "invisible", "not assessed", "hidden by the building"};
 
 std::string legend_line(double width, const std::string& style) {
   return fmt::format("<path d=\"M0 0h{}\" {}/>", width, style);
 }
 
 /// Legend entries for luminaires of a level, with or without letters and heights.
-void explain_luminaires(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
-                        size_t level, bool with_letters) {
+void explain_luminaires(Legend& legend, const AssessmentRecord& a, const Schedule& schedule,
+                        const Texts& texts, size_t level, bool with_letters) {
   std::string letters;  // of the first luminaire on the plan
   for (const bool emergency : {true, false}) {
     bool any = false;
-    for (size_t i = 0; i < a["luminaires"].size(); ++i) {
-      const double z = number_of(a["luminaires"][i]["position"][2]);
+    for (size_t i = 0; i < a.luminaires.size(); ++i) {
+      const double z = a.luminaires[i].position.z;
       if (schedule.level_of(z) != level || schedule.type_of(i).emergency() != emergency) continue;
       any = true;
       if (letters.empty())
@@ -463,13 +448,13 @@ void explain_luminaires(Legend& legend, const Json& a, const Schedule& schedule,
   legend.add(luminaire_letters(letters, width / 2, 0, true), width, texts("legend.letters"));
 }
 
-void explain_signs(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
-                   size_t level) {
+void explain_signs(Legend& legend, const AssessmentRecord& a, const Schedule& schedule,
+                   const Texts& texts, size_t level) {
   bool any = false, double_sided = false;
-  for (const Json& sign : a["signs"]) {
-    if (schedule.level_of(number_of(sign["position"][2])) != level) continue;
+  for (const SignRecord& sign : a.signs) {
+    if (schedule.level_of(sign.position.z) != level) continue;
     any = true;
-    double_sided = double_sided || sign["double_sided"].get<bool>();
+    double_sided = double_sided || sign.double_sided;
   }
   if (any)
     legend.add(sign_number(1.9, 0, 1) + sign_arrow(4.6, 0, 0, false), 8.6, texts("legend.sign"));
@@ -477,30 +462,32 @@ void explain_signs(Legend& legend, const Json& a, const Schedule& schedule, cons
 }
 
 /// Legend entries for routes, areas, walls and furniture.
-void explain_building(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
-                      size_t level, bool with_furniture) {
-  const auto here = [&](const Json& z) { return schedule.level_of(number_of(z)) == level; };
-  const Json &routes = a["places"]["routes"], &areas = a["places"]["areas"];
-  if (std::any_of(routes.begin(), routes.end(), [&](const Json& route) {
-        return std::any_of(route["path"].begin(), route["path"].end(),
-                           [&](const Json& p) { return here(p[2]); });
+void explain_building(Legend& legend, const AssessmentRecord& a, const Schedule& schedule,
+                      const Texts& texts, size_t level, bool with_furniture) {
+  const auto here = [&](double z) { return schedule.level_of(z) == level; };
+  const auto& routes = a.places.routes;
+  const auto& areas = a.places.areas;
+  if (std::any_of(routes.begin(), routes.end(), [&](const RouteRecord& route) {
+        return std::any_of(route.path.begin(), route.path.end(),
+                           [&](const glm::dvec3& p) { return here(p.z); });
       }))
     legend.add(legend_line(8, route_style) + route_end(9.4, 0, 0), 9.4, texts("legend.route"));
-  if (std::any_of(areas.begin(), areas.end(), [&](const Json& area) { return here(area["z"]); }))
+  if (std::any_of(areas.begin(), areas.end(),
+                  [&](const AreaRecord& area) { return here(area.z_m); }))
     legend.add(legend_line(8, area_style), 8, texts("legend.area"));
-  const Json& drawn = a["plan"]["levels"][level];
-  if (!drawn["walls"].empty()) legend.add(legend_line(6, wall_style), 6, texts("legend.walls"));
-  if (with_furniture && !drawn["furniture"].empty())
+  const PlanLevel& drawn = a.plan.levels[level];
+  if (!drawn.walls.empty()) legend.add(legend_line(6, wall_style), 6, texts("legend.walls"));
+  if (with_furniture && !drawn.furniture.empty())
     legend.add(legend_line(6, furniture_style), 6, texts("legend.furniture"));
 }
 
-Legend installation_legend(const Json& a, const Schedule& schedule, const Texts& texts,
+Legend installation_legend(const AssessmentRecord& a, const Schedule& schedule, const Texts& texts,
                            size_t level) {
   Legend legend;
   explain_luminaires(legend, a, schedule, texts, level, true);
   explain_signs(legend, a, schedule, texts, level);
-  for (const Json& point : a["places"]["emphasis"])
-    if (schedule.level_of(number_of(point["position"][2])) == level) {
+  for (const EmphasisRecord& point : a.places.emphasis)
+    if (schedule.level_of(point.position.z) == level) {
       legend.add(emphasis_symbol(1.3, 0), 2.6, texts("legend.emphasis"));
       break;
     }
@@ -508,7 +495,8 @@ Legend installation_legend(const Json& a, const Schedule& schedule, const Texts&
   return legend;
 }
 
-Legend isolux_legend(const Json& a, const Schedule& schedule, const Texts& texts, size_t level) {
+Legend isolux_legend(const AssessmentRecord& a, const Schedule& schedule, const Texts& texts,
+                     size_t level) {
   Legend legend;
   for (const double lux : isolux_levels)
     legend.add(legend_line(8, isolux_style(lux)), 8, texts.number(lux) + " lx");
@@ -517,17 +505,22 @@ Legend isolux_legend(const Json& a, const Schedule& schedule, const Texts& texts
   return legend;
 }
 
-Legend sight_legend(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
-                    const std::string& sign) {
+Legend sight_legend(const AssessmentRecord& a, const Schedule& schedule, const Texts& texts,
+                    size_t level, const std::string& sign) {
   Legend legend;
-  for (const char* rank : ranks)
-    legend.add(verdict_shape(rank, 1.3, 0, 1.3), 2.6, texts.word("sight", rank));
+  for (const SightVerdict rank : sight_ranks)
+    legend.add(verdict_shape(name_of(rank), 1.3, 0, 1.3), 2.6, texts.word("sight", name_of(rank)));
   // A map of one sign is small and has the sign's name in its caption.
   if (sign.empty()) explain_signs(legend, a, schedule, texts, level);
   return legend;
 }
 
 }  // namespace
+
+size_t rank_of(SightVerdict verdict) {
+  return static_cast<size_t>(std::find(sight_ranks.begin(), sight_ranks.end(), verdict) -
+                             sight_ranks.begin());
+}
 
 const char* verdict_colour(const std::string& verdict) {
   if (verdict == "pass" || verdict == "legible") return "#1a7f3c";
@@ -580,7 +573,7 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
 }
 
 Plan Plans::installation(size_t number) const {
-  const Json& level = a_["plan"]["levels"][number];
+  const PlanLevel& level = a_.plan.levels[number];
   const Legend legend = installation_legend(a_, schedule_, texts_, number);
   const Sheet sheet(a_, schedule_, number, size_, legend);
   LabelSpace space;
@@ -595,7 +588,7 @@ Plan Plans::installation(size_t number) const {
 }
 
 Plan Plans::isolux(size_t number, bool values) const {
-  const Json& level = a_["plan"]["levels"][number];
+  const PlanLevel& level = a_.plan.levels[number];
   const Legend legend = isolux_legend(a_, schedule_, texts_, number);
   const Sheet sheet(a_, schedule_, number, size_, legend);
   std::string lines = "<g class=\"lines\">\n";
@@ -610,27 +603,24 @@ Plan Plans::isolux(size_t number, bool values) const {
 }
 
 Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) const {
-  const Json& level = a_["plan"]["levels"][number];
+  const PlanLevel& level = a_.plan.levels[number];
   const Legend legend = sight_legend(a_, schedule_, texts_, number, sign);
   const Sheet sheet(a_, schedule_, number, size_, legend);
-  std::map<std::pair<double, double>, size_t> best;  // index into `ranks` by place
-  for (const Json& sight : a_["sights"]) {
-    const double eye = number_of(sight["eye_height"]["value"]);
-    if ((text_in(sight["from"], "kind") == name_of(SubjectKind::observer))) continue;
-    if (eye != eye_height_m || schedule_.level_of(number_of(sight["eye"][2]) - eye) != number)
+  std::map<std::pair<double, double>, size_t> best;  // rank by place
+  for (const SightRecord& sight : a_.sights) {
+    const double eye = sight.eye_height_m;
+    if (sight.by_observer() || eye != eye_height_m ||
+        schedule_.level_of(sight.eye.z - eye) != number || (!sign.empty() && sight.sign != sign))
       continue;
-    if (!sign.empty() && sight["sign"].get<std::string>() != sign) continue;
-    const auto verdict = sight["verdict"].get<std::string>();
-    const auto rank =
-        static_cast<size_t>(std::find(ranks.begin(), ranks.end(), verdict) - ranks.begin());
-    const std::pair place{number_of(sight["eye"][0]), number_of(sight["eye"][1])};
+    const size_t rank = rank_of(sight.verdict);
+    const std::pair place{sight.eye.x, sight.eye.y};
     const auto known = best.try_emplace(place, rank).first;
     known->second = std::min(known->second, rank);
   }
   std::string marks = "<g class=\"sights\">\n";
   for (const auto& [place, rank] : best)
-    marks += verdict_shape(ranks[std::min(rank, ranks.size() - 1)], sheet.x(place.first),
-                           sheet.y(place.second), 1.3);
+    marks +=
+        verdict_shape(name_of(sight_ranks[rank]), sheet.x(place.first), sheet.y(place.second), 1.3);
   return finished(sheet, legend,
                   (sign.empty() ? backdrops(a_, number, sheet) : "") + building(level, sheet) +
                       marks + "</g>\n" + signs(a_, schedule_, number, sheet, sign) +

@@ -1,9 +1,10 @@
-// Plans as SVG from the JSON of an assessment, one for each level: installation, lines of equal
+// Plans as SVG from the record of an assessment, one for each level: installation, lines of equal
 // illuminance, and what people read. Lines and letters have sizes in millimetres on paper, so all
 // plans of a report look alike. Verdicts differ by shape as well as by colour. Immutable once made;
 // any thread.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "actors/judge/report/schedule.hpp"
@@ -16,6 +17,12 @@ struct PlanSize {
   double height_mm = 150;
 };
 
+/// Verdicts on a view, from best to worst.
+inline constexpr std::array<SightVerdict, 6> sight_ranks{
+    SightVerdict::legible,   SightVerdict::undecided,    SightVerdict::visible,
+    SightVerdict::invisible, SightVerdict::not_assessed, SightVerdict::hidden};
+size_t rank_of(SightVerdict verdict);
+
 /// A drawing with its size and scale.
 struct Plan {
   std::string svg;
@@ -26,7 +33,8 @@ struct Plan {
 class Plans {
  public:
   /// Keeps references to all arguments except `size`.
-  Plans(const Json& assessment, const Schedule& schedule, const Texts& texts, PlanSize size)
+  Plans(const AssessmentRecord& assessment, const Schedule& schedule, const Texts& texts,
+        PlanSize size)
       : a_(assessment), schedule_(schedule), texts_(texts), size_(size) {}
 
   Plan installation(size_t level) const;
@@ -37,7 +45,7 @@ class Plans {
   Plan sights(size_t level, double eye_height_m, const std::string& sign) const;
 
  private:
-  const Json& a_;
+  const AssessmentRecord& a_;
   const Schedule& schedule_;
   const Texts& texts_;
   PlanSize size_;

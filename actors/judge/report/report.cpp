@@ -41,14 +41,13 @@ std::string height_name(double metres) {
   return fmt::format("{:.2f}m", metres);
 }
 
-Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& schedule,
-                         const Texts& texts, bool values) {
+Result<void> write_plans(const fs::path& folder, const AssessmentRecord& a,
+                         const Schedule& schedule, const Texts& texts, bool values) {
   if (auto ok = make_folder(folder); !ok) return ok.problem();
   const Plans plans(a, schedule, texts, {});
   std::set<double> heights;
-  for (const Json& sight : a["sights"])
-    if (!(text_in(sight["from"], "kind") == name_of(SubjectKind::observer)))
-      heights.insert(sight["eye_height"]["value"].get<double>());
+  for (const SightRecord& sight : a.sights)
+    if (!sight.by_observer()) heights.insert(sight.eye_height_m);
   for (size_t i = 0; i < schedule.levels(); ++i) {
     const std::string level =
         schedule.levels() > 1 ? "level_" + std::to_string(i + 1) + "_" : std::string();
@@ -66,24 +65,24 @@ Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& 
 }
 
 /// Writes one map of place and time for each route and eye height.
-Result<void> write_guidance(const fs::path& folder, const Json& a, const Texts& texts) {
-  const auto over = a.find("over_time");
-  if (over == a.end()) return {};
+Result<void> write_guidance(const fs::path& folder, const AssessmentRecord& a, const Texts& texts) {
+  if (!a.over_time) return {};
   constexpr double sheet_mm = 180;
   std::vector<std::string> names;
-  for (const Json& route : (*over)["routes"])
-    names.push_back("guided_" + text_in(route, "route") + "_" +
-                    height_name(route["eye_height"]["value"].get<double>()));
+  for (const RouteOverTime& route : a.over_time->routes)
+    names.push_back("guided_" + route.route + "_" + height_name(route.eye_height_m));
   names = file_names_of(names, std::array{".svg"});
   for (size_t i = 0; i < names.size(); ++i)
-    if (auto ok = write_file_atomically(folder / (names[i] + ".svg"),
-                                        guidance_map(*over, (*over)["routes"][i], texts, sheet_mm));
+    if (auto ok = write_file_atomically(
+            folder / (names[i] + ".svg"),
+            guidance_map(*a.over_time, a.over_time->routes[i], texts, sheet_mm));
         !ok)
       return ok.problem();
   return {};
 }
 
-Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
+Result<void> write_schedules(const fs::path& folder, const AssessmentRecord& a,
+                             const Schedule& schedule) {
   if (auto ok = make_folder(folder); !ok) return ok.problem();
   for (const auto& [name, table] : {std::pair{"luminaires.csv", luminaires_csv(a, schedule)},
                                     std::pair{"signs.csv", signs_csv(a, schedule)},
@@ -96,7 +95,7 @@ Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedu
 
 /// Prints twice: the first print gives the page of each heading, which the second one has in its
 /// contents.
-Result<void> print_report(const fs::path& folder, const Json& a,
+Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
                           const std::vector<ReportPicture>& pictures,
                           const ReportOptions& options) {
   const fs::path pdf = folder / "report.pdf";
@@ -118,7 +117,7 @@ Result<void> print_report(const fs::path& folder, const Json& a,
 
 }  // namespace
 
-std::string report_html(const Json& a, const std::vector<ReportPicture>& pictures,
+std::string report_html(const AssessmentRecord& a, const std::vector<ReportPicture>& pictures,
                         const std::string& folder, const ReportOptions& options,
                         const std::map<std::string, int>& pages) {
   const Schedule schedule(a);
@@ -130,7 +129,8 @@ std::string report_html(const Json& a, const std::vector<ReportPicture>& picture
                      {options.letter, pages});
 }
 
-Result<void> write_report(const fs::path& folder, const Json& a, const ReportOptions& options) {
+Result<void> write_report(const fs::path& folder, const AssessmentRecord& a,
+                          const ReportOptions& options) {
   const Schedule schedule(a);
   const Texts texts(options.language);
   const auto pictures = pictures_in(folder);

@@ -1,4 +1,4 @@
-// The report of an assessment from its JSON: report.html, report.pdf, plans (SVG, DXF) and
+// The report of an assessment from its record: report.html, report.pdf, plans (SVG, DXF) and
 // schedules (CSV) in the assessment's folder. It calculates nothing and certifies nothing. Any
 // thread; one report of a folder at a time.
 #pragma once
@@ -18,14 +18,13 @@ struct ReportOptions {
 };
 
 /// The HTML page only.
-std::string report_html(const Json& assessment, const std::vector<ReportPicture>& pictures,
-                        const std::string& folder, const ReportOptions& options,
-                        const std::map<std::string, int>& pages = {});
+std::string report_html(const AssessmentRecord& assessment,
+                        const std::vector<ReportPicture>& pictures, const std::string& folder,
+                        const ReportOptions& options, const std::map<std::string, int>& pages = {});
 
-/// Writes all files of a report. Requires: a JSON that check_assessment (actors/judge/assess) has
-/// passed. Errors: a file that cannot be written; with `pdf` also a missing Chromium (all other
-/// files are written).
-Result<void> write_report(const std::filesystem::path& folder, const Json& assessment,
+/// Writes all files of a report. Errors: a file that cannot be written; with `pdf` also a missing
+/// Chromium (all other files are written).
+Result<void> write_report(const std::filesystem::path& folder, const AssessmentRecord& assessment,
                           const ReportOptions& options);
 
 }  // namespace luxodus

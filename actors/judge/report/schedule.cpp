@@ -16,29 +16,29 @@ std::string letter_of(size_t number) {
   return out;
 }
 
-/// Everything that luminaires of one type have in common, as text.
-std::string key_of(const Json& luminaire) {
-  Json key = luminaire;
-  for (const char* own : {"name", "position", "circuit"}) key.erase(own);
-  return key.dump();
+/// Everything that luminaires of one type have in common.
+LuminaireRecord type_of(LuminaireRecord luminaire) {
+  luminaire.name = luminaire.circuit = "";
+  luminaire.position = glm::dvec3(0);
+  return luminaire;
 }
 
-std::string sign_key(const Json& sign) {
-  Json key = sign;
-  for (const char* own : {"name", "position", "facing", "circuit"}) key.erase(own);
-  return key.dump();
+SignRecord type_of(SignRecord sign) {
+  sign.name = sign.circuit = "";
+  sign.position = sign.facing = glm::dvec3(0);
+  return sign;
 }
 
 }  // namespace
 
-Schedule::Schedule(const Json& assessment) {
-  const Json& luminaires = assessment["luminaires"];
-  std::vector<std::string> keys;
+Schedule::Schedule(const AssessmentRecord& assessment) {
+  const auto& luminaires = assessment.luminaires;
+  std::vector<LuminaireRecord> keys;
   type_of_.resize(luminaires.size());
   for (const bool emergency : {true, false})
     for (size_t i = 0; i < luminaires.size(); ++i) {
-      if ((luminaires[i]["emergency_flux"]["value"].get<double>() > 0) != emergency) continue;
-      const std::string key = key_of(luminaires[i]);
+      if ((luminaires[i].emergency_flux.value > 0) != emergency) continue;
+      const LuminaireRecord key = luxodus::type_of(luminaires[i]);
       const auto at = std::find(keys.begin(), keys.end(), key) - keys.begin();
       type_of_[i] = static_cast<size_t>(at);
       if (type_of_[i] == keys.size()) {
@@ -47,10 +47,10 @@ Schedule::Schedule(const Json& assessment) {
       }
       types_[type_of_[i]].members.push_back(i);
     }
-  const Json& signs = assessment["signs"];
-  std::vector<std::string> sign_keys;
+  const auto& signs = assessment.signs;
+  std::vector<SignRecord> sign_keys;
   for (size_t i = 0; i < signs.size(); ++i) {
-    const std::string key = sign_key(signs[i]);
+    const SignRecord key = luxodus::type_of(signs[i]);
     const auto at = std::find(sign_keys.begin(), sign_keys.end(), key) - sign_keys.begin();
     if (static_cast<size_t>(at) == sign_keys.size()) {
       sign_keys.push_back(key);
@@ -58,8 +58,7 @@ Schedule::Schedule(const Json& assessment) {
     }
     sign_types_[static_cast<size_t>(at)].members.push_back(i);
   }
-  for (const Json& level : assessment["plan"]["levels"])
-    floors_.push_back(level["floor"].get<double>());
+  for (const PlanLevel& level : assessment.plan.levels) floors_.push_back(level.floor_m);
 }
 
 size_t Schedule::level_of(double z) const {
@@ -73,10 +72,8 @@ double Schedule::above_floor(double z) const {
   return z - floors_[level_of(z)];
 }
 
-std::string product_of(const Json& luminaire) {
-  for (const char* key : {"product", "file"})
-    if (const auto text = luminaire[key].get<std::string>(); !text.empty()) return text;
-  return "";
+std::string product_of(const LuminaireRecord& luminaire) {
+  return luminaire.product.empty() ? luminaire.file : luminaire.product;
 }
 
 }  // namespace luxodus

@@ -1,32 +1,31 @@
 // Luminaires by type and signs by number, with the same names in plans, tables and drawings. Made
-// of the JSON of an assessment, to which it keeps references. Requires everywhere: a JSON that
-// check_assessment (actors/judge/assess) has passed. Immutable once made; any thread.
+// of the record of an assessment, to which it keeps references. Immutable once made; any thread.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "actors/results/formats/json_out.hpp"
+#include "actors/judge/record/assessment_record.hpp"
 
 namespace luxodus {
 
 /// Luminaires that differ in their place, circuit and name only: one row of the schedule.
 struct LuminaireType {
   std::string letter;  // "A", ..., "Z", "AA", ...
-  const Json* one = nullptr;
-  std::vector<size_t> members;  // indices into "luminaires"
-  bool emergency() const { return (*one)["emergency_flux"]["value"].get<double>() > 0; }
+  const LuminaireRecord* one = nullptr;
+  std::vector<size_t> members;  // indices into the luminaires
+  bool emergency() const { return one->emergency_flux.value > 0; }
 };
 
 /// Signs that differ in their place only.
 struct SignType {
-  const Json* one = nullptr;
-  std::vector<size_t> members;  // indices into "signs"
+  const SignRecord* one = nullptr;
+  std::vector<size_t> members;  // indices into the signs
 };
 
 class Schedule {
  public:
-  explicit Schedule(const Json& assessment);
+  explicit Schedule(const AssessmentRecord& assessment);
 
   /// Emergency luminaires first, then mains luminaires, each in the order of the scene.
   const std::vector<LuminaireType>& types() const { return types_; }
@@ -46,6 +45,6 @@ class Schedule {
 };
 
 /// Name of a luminaire's product: the product, or else its file, or else its shape.
-std::string product_of(const Json& luminaire);
+std::string product_of(const LuminaireRecord& luminaire);
 
 }  // namespace luxodus

@@ -6,54 +6,57 @@ namespace luxodus {
 
 namespace {
 
-std::string text(const Json& row, const char* key) {
-  const auto at = row.find(key);
-  return at != row.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
-
-void number(CsvTable& table, const Json& value) {
-  if (value.is_number())
-    table.cell(value.get<double>());
+void number(CsvTable& table, const std::optional<double>& value) {
+  if (value)
+    table.cell(*value);
   else
     table.empty_cell();
 }
 
-/// Adds the number of {"value", "unit"} at a key, or an empty cell.
-void quantity(CsvTable& table, const Json& row, const char* key) {
-  const auto at = row.find(key);
-  if (at == row.end())
-    table.empty_cell();
-  else
-    number(table, (*at)["value"]);
+void numbers(CsvTable& table, std::initializer_list<std::optional<double>> values) {
+  for (const auto& value : values) number(table, value);
 }
 
-void place(CsvTable& table, const Json& position) {
-  for (size_t i = 0; i < 3; ++i) number(table, position[i]);
+void texts(CsvTable& table, std::initializer_list<std::string_view> words) {
+  for (const std::string_view one : words) table.cell(one);
+}
+
+void place(CsvTable& table, const glm::dvec3& p) {
+  numbers(table, {p.x, p.y, p.z});
+}
+
+/// Places of some of these things: "1.000 2.000 3.000; ...".
+template <class Thing>
+std::string places_of(const std::vector<Thing>& things, const std::vector<size_t>& members) {
+  std::string out;
+  for (const size_t i : members) {
+    const glm::dvec3& p = things[i].position;
+    out += fmt::format("{}{:.3f} {:.3f} {:.3f}", out.empty() ? "" : "; ", p.x, p.y, p.z);
+  }
+  return out;
 }
 
 }  // namespace
 
-CsvTable luminaires_csv(const Json& a, const Schedule& schedule) {
+CsvTable luminaires_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"name", "type", "product", "file", "operation", "circuit", "x [m]", "y [m]",
                   "z [m]", "height above floor [m]", "mains flux", "emergency flux", "flux unit",
                   "maintenance factor [1]", "end of duration factor [1]"});
-  for (size_t i = 0; i < a["luminaires"].size(); ++i) {
-    const Json& one = a["luminaires"][i];
-    table.cell(text(one, "name")).cell(schedule.type_of(i).letter);
-    for (const char* key : {"product", "file", "operation", "circuit"}) table.cell(text(one, key));
-    place(table, one["position"]);
-    table.cell(schedule.above_floor(one["position"][2].get<double>()));
-    quantity(table, one, "mains_flux");
-    quantity(table, one, "emergency_flux");
-    table.cell(text(one["mains_flux"], "unit"));
-    number(table, one["maintenance_factor"]);
-    number(table, one["end_of_duration_factor"]);
+  for (size_t i = 0; i < a.luminaires.size(); ++i) {
+    const LuminaireRecord& one = a.luminaires[i];
+    texts(table, {one.name, schedule.type_of(i).letter, one.product, one.file, one.operation,
+                  one.circuit});
+    place(table, one.position);
+    numbers(table,
+            {schedule.above_floor(one.position.z), one.mains_flux.value, one.emergency_flux.value});
+    table.cell(one.mains_flux.unit);
+    numbers(table, {one.maintenance_factor, one.end_of_duration_factor});
     table.end_row();
   }
   return table;
 }
 
-CsvTable signs_csv(const Json& a, const Schedule& schedule) {
+CsvTable signs_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"number",
                   "name",
                   "face file",
@@ -75,81 +78,75 @@ CsvTable signs_csv(const Json& a, const Schedule& schedule) {
                   "mains green [cd/m2]",
                   "emergency white [cd/m2]",
                   "emergency green [cd/m2]"});
-  for (size_t i = 0; i < a["signs"].size(); ++i) {
-    const Json& one = a["signs"][i];
-    table.cell(static_cast<int64_t>(i + 1)).cell(text(one, "name"));
-    table.cell(text(one, "file")).cell(text(one, "text")).cell(text(one, "lighting"));
-    table.cell(one["double_sided"].get<bool>()).cell(text(one, "circuit"));
-    place(table, one["position"]);
-    table.cell(schedule.above_floor(one["position"][2].get<double>()));
-    place(table, one["facing"]);
-    for (const char* key : {"width", "height", "smallest_detail", "mains_white", "mains_green",
-                            "emergency_white", "emergency_green"})
-      quantity(table, one, key);
+  for (size_t i = 0; i < a.signs.size(); ++i) {
+    const SignRecord& one = a.signs[i];
+    table.cell(static_cast<int64_t>(i + 1));
+    texts(table, {one.name, one.file, one.text, one.lighting});
+    table.cell(one.double_sided).cell(one.circuit);
+    place(table, one.position);
+    table.cell(schedule.above_floor(one.position.z));
+    place(table, one.facing);
+    numbers(table, {one.width_m, one.height_m, one.smallest_detail_m});
+    if (one.face)
+      numbers(table, {one.face->mains_white_cd_m2, one.face->mains_green_cd_m2,
+                      one.face->emergency_white_cd_m2, one.face->emergency_green_cd_m2});
+    else
+      table.empty_cell().empty_cell().empty_cell().empty_cell();
     table.end_row();
   }
   return table;
 }
 
-CsvTable materials_csv(const Json& a, const Schedule& schedule) {
+CsvTable materials_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"kind", "type or numbers", "item", "operation or lighting", "count [1]",
                   "places x y z [m]"});
-  const auto add = [&](const char* kind, const std::string& mark, const std::string& item,
-                       const std::string& how, const Json& things,
-                       const std::vector<size_t>& members) {
-    std::string places;
-    for (const size_t i : members) {
-      const Json& p = things[i]["position"];
-      places += fmt::format("{}{:.3f} {:.3f} {:.3f}", places.empty() ? "" : "; ",
-                            p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
-    }
-    table.cell(kind).cell(mark).cell(item).cell(how);
-    table.cell(static_cast<int64_t>(members.size())).cell(places).end_row();
+  const auto add = [&](std::initializer_list<std::string_view> words, size_t count,
+                       const std::string& places) {
+    texts(table, words);
+    table.cell(static_cast<int64_t>(count)).cell(places).end_row();
   };
   for (const LuminaireType& type : schedule.types())
-    add("luminaire", type.letter, product_of(*type.one), text(*type.one, "operation"),
-        a["luminaires"], type.members);
+    add({"luminaire", type.letter, product_of(*type.one), type.one->operation}, type.members.size(),
+        places_of(a.luminaires, type.members));
   for (const SignType& type : schedule.sign_types()) {
-    std::string numbers;
-    for (const size_t i : type.members)
-      numbers += (numbers.empty() ? "" : " ") + std::to_string(i + 1);
-    const std::string face = text(*type.one, "file");
-    add("sign", numbers, face.empty() ? text(*type.one, "text") : face, text(*type.one, "lighting"),
-        a["signs"], type.members);
+    std::string marks;
+    for (const size_t i : type.members) marks += (marks.empty() ? "" : " ") + std::to_string(i + 1);
+    const SignRecord& one = *type.one;
+    add({"sign", marks, one.file.empty() ? one.text : one.file, one.lighting}, type.members.size(),
+        places_of(a.signs, type.members));
   }
   return table;
 }
 
-CsvTable places_csv(const Json& a) {
+CsvTable places_csv(const AssessmentRecord& a) {
   CsvTable table({"subject", "rule", "edition", "clause", "title", "condition", "verdict", "value",
                   "limit", "sense", "unit", "margin [1]", "worst x [m]", "worst y [m]",
                   "worst z [m]", "quoted from", "remark"});
-  for (const Json& check : a["checks"]) {
-    table.cell(english_in(check, "subject"));
-    for (const char* key : {"rule", "edition", "clause", "title"}) table.cell(text(check, key));
-    table.cell(english_in(check, "conditions")).cell(text(check, "verdict"));
-    number(table, check["value"]);
-    number(table, check["limit"]);
-    table.cell(text(check, "sense")).cell(text(check, "unit"));
-    number(table, check["margin"]);
-    if (const auto at = check.find("worst_place"); at != check.end())
-      place(table, *at);
+  const Texts t = english();
+  for (const Check& check : a.checks) {
+    const std::string_view rule = name_of(check.rule.id);
+    texts(table, {t.subject(check.subject), rule, check.rule.edition, t.clause(check.rule),
+                  t.rule_title(rule), t.remarks(check.conditions), name_of(check.verdict)});
+    numbers(table, {check.value, check.limit});
+    texts(table, {check.at_least ? "at least" : "at most", check.unit});
+    number(table, check.margin());
+    if (check.worst)
+      place(table, *check.worst);
     else
       table.empty_cell().empty_cell().empty_cell();
-    table.cell(english_in(check, "quoted_from")).cell(english_in(check, "reasons")).end_row();
+    texts(table, {t.remarks(check.rule.sources), t.remarks(check.reasons)});
+    table.end_row();
   }
   return table;
 }
 
-CsvTable points_csv(const Json& a, const Schedule& schedule) {
+CsvTable points_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"level", "floor [m]", "x [m]", "y [m]", "z [m]", "illuminance [lx]"});
-  const Json& levels = a["plan"]["levels"];
-  for (size_t i = 0; i < levels.size(); ++i)
-    for (const Json& p : levels[i]["points"]) {
+  for (size_t i = 0; i < a.plan.levels.size(); ++i)
+    for (const PlanPoint& p : a.plan.levels[i].points) {
       table.cell(static_cast<int64_t>(i + 1)).cell(schedule.floor(i));
-      place(table, p);
-      number(table, p[3]);
-      table.end_row();
+      place(table, p.place);
+      table.cell(p.lux).end_row();
     }
   return table;
 }

@@ -75,10 +75,10 @@ std::string Legend::svg(double width_mm, double top_mm) const {
   return out + "</g>\n";
 }
 
-Sheet::Sheet(const Json& assessment, const Schedule& schedule, size_t level, const PlanSize& size,
-             const Legend& legend) {
+Sheet::Sheet(const AssessmentRecord& assessment, const Schedule& schedule, size_t level,
+             const PlanSize& size, const Legend& legend) {
   take_level(assessment, schedule, level);
-  if (low_[0] > high_[0]) low_[0] = low_[1] = 0, high_[0] = high_[1] = 1;
+  if (low_.x > high_.x) low_ = glm::dvec2(0), high_ = glm::dvec2(1);
   // A larger legend makes the drawing smaller, and a narrower drawing may need more legend rows.
   foot_ = legend.foot_mm(size.width_mm);
   for (int tries = 0; tries < 8; ++tries) {
@@ -89,23 +89,24 @@ Sheet::Sheet(const Json& assessment, const Schedule& schedule, size_t level, con
   }
 }
 
-void Sheet::take_level(const Json& a, const Schedule& schedule, size_t number) {
-  const Json& level = a["plan"]["levels"][number];
-  for (const char* kind : {"walls", "furniture"})
-    for (const Json& line : level[kind])
-      for (const size_t k : {size_t{0}, size_t{2}})
-        take(line[k].get<double>(), line[k + 1].get<double>());
-  for (const Json& p : level["points"]) take(p[0].get<double>(), p[1].get<double>());
-  for (const char* kind : {"luminaires", "signs"})
-    for (const Json& thing : a[kind]) {
-      const Json& p = thing["position"];
-      if (schedule.level_of(p[2].get<double>()) == number)
-        take(p[0].get<double>(), p[1].get<double>());
+void Sheet::take_level(const AssessmentRecord& a, const Schedule& schedule, size_t number) {
+  const PlanLevel& level = a.plan.levels[number];
+  for (const auto* lines : {&level.walls, &level.furniture})
+    for (const auto& [from, to] : *lines) {
+      take(from);
+      take(to);
     }
+  for (const PlanPoint& p : level.points) take(p.place);
+  const auto take_things = [&](const auto& things) {
+    for (const auto& thing : things)
+      if (schedule.level_of(thing.position.z) == number) take(thing.position);
+  };
+  take_things(a.luminaires);
+  take_things(a.signs);
 }
 
 void Sheet::fit(const PlanSize& size) {
-  const double across = std::max(high_[0] - low_[0], 0.5), up = std::max(high_[1] - low_[1], 0.5);
+  const double across = std::max(high_.x - low_.x, 0.5), up = std::max(high_.y - low_.y, 0.5);
   unit_ = std::min((size.width_mm - 2 * border_mm) / across,
                    std::max(size.height_mm - foot_ - 2 * border_mm, 20.0) / up);
   unit_ = 1000 / round_scale(1000 / unit_);
@@ -114,11 +115,9 @@ void Sheet::fit(const PlanSize& size) {
   height_ = up * unit_ + 2 * border_mm;
 }
 
-void Sheet::take(double x, double y) {
-  low_[0] = std::min(low_[0], x);
-  low_[1] = std::min(low_[1], y);
-  high_[0] = std::max(high_[0], x);
-  high_[1] = std::max(high_[1], y);
+void Sheet::take(const glm::dvec2& place) {
+  low_ = glm::min(low_, place);
+  high_ = glm::max(high_, place);
 }
 
 }  // namespace luxodus

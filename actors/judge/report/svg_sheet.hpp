@@ -1,7 +1,6 @@
 // The sheet of a plan: conversion from metres to millimetres of paper, text widths, and the legend
-// below the drawing. Requires everywhere: a JSON that check_assessment (actors/judge/assess) has
-// passed. Immutable once made, except for adding entries to a legend; any thread, one at a time for
-// a legend.
+// below the drawing. Immutable once made, except for adding entries to a legend; any thread, one at
+// a time for a legend.
 #pragma once
 
 #include <string>
@@ -46,10 +45,10 @@ class Legend {
 /// a legend.
 class Sheet {
  public:
-  Sheet(const Json& assessment, const Schedule& schedule, size_t level, const PlanSize& size,
-        const Legend& legend);
-  double x(double metres) const { return left_ + (metres - low_[0]) * unit_; }
-  double y(double metres) const { return border_mm + (high_[1] - metres) * unit_; }
+  Sheet(const AssessmentRecord& assessment, const Schedule& schedule, size_t level,
+        const PlanSize& size, const Legend& legend);
+  double x(double metres) const { return left_ + (metres - low_.x) * unit_; }
+  double y(double metres) const { return border_mm + (high_.y - metres) * unit_; }
   double mm(double metres) const { return metres * unit_; }
   double width() const { return width_; }
   /// Heights of the drawing and of the foot below it.
@@ -58,11 +57,11 @@ class Sheet {
   double scale() const { return 1000 / unit_; }
 
  private:
-  void take(double x, double y);
-  void take_level(const Json& assessment, const Schedule& schedule, size_t level);
+  void take(const glm::dvec2& place);
+  void take_level(const AssessmentRecord& assessment, const Schedule& schedule, size_t level);
   void fit(const PlanSize& size);
 
-  double low_[2] = {1e300, 1e300}, high_[2] = {-1e300, -1e300};
+  glm::dvec2 low_{1e300}, high_{-1e300};
   double unit_ = 1, width_ = 0, height_ = 0, left_ = 0, foot_ = 0;
 };
 

@@ -135,23 +135,23 @@ TEST_CASE(
     "[emergency][guidance]") {
   // Places at 0, 5, 10 m; the route is 15 m long. The last place is not guided from 20 s on.
   const GuidedRoute route = table({"ggg", "ggg", "ggn", "gnn"});
-  const Walk in_time = walk(route, 0, 1.5);  // arrives at 10 s, exactly at a state
-  CHECK(in_time.end == Walk::End::arrives);
+  const GuidedWalk in_time = walk(route, 0, 1.5);  // arrives at 10 s, exactly at a state
+  CHECK(in_time.end == GuidedWalk::End::arrives);
   CHECK(in_time.at_m == 15);
   CHECK(in_time.at_s == 10);
-  const Walk caught = walk(route, 0, 1);  // between 10 and 15 m from 10 s to 15 s
-  CHECK(caught.end == Walk::End::lost);
+  const GuidedWalk caught = walk(route, 0, 1);  // between 10 and 15 m from 10 s to 15 s
+  CHECK(caught.end == GuidedWalk::End::lost);
   CHECK(caught.at_m == 10);
   CHECK(caught.at_s == 10);
-  const Walk late = walk(route, 1, 1);  // at 10 m at 11 s, between a guided and an unguided state
-  CHECK(late.end == Walk::End::lost);
+  const GuidedWalk late = walk(route, 1, 1);  // at 10 m at 11 s, between a guided and an unguided state
+  CHECK(late.end == GuidedWalk::End::lost);
   CHECK(late.at_m == 10);
   CHECK(late.at_s == 11);
-  const Walk later = walk(route, 20, 1);  // at 5 m at 25 s
-  CHECK(later.end == Walk::End::lost);
+  const GuidedWalk later = walk(route, 20, 1);  // at 5 m at 25 s
+  CHECK(later.end == GuidedWalk::End::lost);
   CHECK(later.at_m == 5);
-  const Walk slow = walk(table({"ggg", "ggg"}), 0, 0.5);  // at 5 m at 10 s, the last state
-  CHECK(slow.end == Walk::End::unknown);
+  const GuidedWalk slow = walk(table({"ggg", "ggg"}), 0, 0.5);  // at 5 m at 10 s, the last state
+  CHECK(slow.end == GuidedWalk::End::unknown);
   CHECK(slow.at_m == 5);
 }
 
@@ -160,8 +160,8 @@ TEST_CASE("if guidance only decreases, a walker who sets out later gets no farth
   const GuidedRoute route = table({"gggg", "gggn", "ggnn", "gnnn", "nnnn"});
   double last = 1e9;
   for (const double start : {0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0}) {
-    const Walk one = walk(route, start, 1);
-    CHECK(one.end != Walk::End::unknown);
+    const GuidedWalk one = walk(route, start, 1);
+    CHECK(one.end != GuidedWalk::End::unknown);
     CHECK(one.at_m <= last);
     last = one.at_m;
   }

@@ -4,7 +4,8 @@
 #include <map>
 #include <numbers>
 
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/assessment_files.hpp"
+#include "actors/judge/assess/compare.hpp"
 #include "actors/judge/report/report.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
@@ -71,7 +72,7 @@ TEST_CASE("people on routes and in areas represent their whole length and area",
   CHECK(metres == Approx(10));
   CHECK(square_metres == Approx(24));
   const auto scene = described_text(room + hall);
-  const std::string page = report_html(assessment_json(*scene, a, "1"), {}, "out", {});
+  const std::string page = report_html(record_of(*scene, a, "1"), {}, "out", {});
   CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // everything is legible
 }
 
@@ -189,19 +190,18 @@ TEST_CASE("an assessment is read back, and a comparison lists what has changed",
   const test::TemporaryFolder folder;
   AssessOptions options;
   options.rounds = 1;
-  const auto scene = described_text(with_smoke(0.4, 0));
-  const Json before = assessment_json(*scene, assessed(with_smoke(0.4, 0), options), "1");
+  const AssessmentRecord before = recorded(with_smoke(0.4, 0), options);
   REQUIRE(write_assessment(folder / "a", before).ok());
   const auto again = read_assessment(folder / "a");
   REQUIRE(again.ok());
-  CHECK(json_text(again.value()) == json_text(before));
-  const Json nothing = comparison_of(before, again.value());
+  CHECK(json_text(assessment_json(again.value())) == json_text(assessment_json(before)));
+  const Json nothing = comparison_json(comparison_of(before, again.value()));
+  CHECK(nothing.size() == 5);
   for (const auto& [key, rows] : nothing.items()) CHECK(rows.empty());
   std::string dimmer = with_smoke(0.4, 0);
   dimmer.replace(dimmer.find("emergency_flux = 500"), 20, "emergency_flux = 250");
-  const Json after = assessment_json(*described_text(dimmer), assessed(dimmer, options), "1");
-  const Json changed = comparison_of(before, after);
-  CHECK_FALSE(changed["values"].empty());
+  const Comparison changed = comparison_of(before, recorded(dimmer, options));
+  CHECK_FALSE(changed.values.empty());
   CHECK(comparison_text(changed).find("E1 (EN 1838:2013) route \"way\"") != std::string::npos);
   CHECK_FALSE(read_assessment(folder / "").ok());
 }
@@ -209,7 +209,7 @@ TEST_CASE("an assessment is read back, and a comparison lists what has changed",
 TEST_CASE("writing an assessment removes tables of an earlier one that it does not have",
           "[assess]") {
   const test::TemporaryFolder folder;
-  const Json made = assessment_json(*described_text(room), assessed(room, codes_alone()), "1");
+  const AssessmentRecord made = recorded(room, codes_alone());
   const auto exists = [&](const char* file) { return std::filesystem::exists(folder / file); };
   REQUIRE(write_assessment(folder.path(), made).ok());
   folder.write("by_guid.csv", "of an earlier assessment\n");
@@ -223,11 +223,9 @@ TEST_CASE("writing an assessment removes tables of an earlier one that it does n
 }
 
 TEST_CASE("a report counts checks, and never says that a building complies", "[assess]") {
-  const auto scene = described_text(room);
   AssessOptions options;
   options.rounds = 1;
-  const std::string page = report_html(assessment_json(*scene, assessed(room, options), "1"),
-                                       {{"view", "png"}}, "out", {});
+  const std::string page = report_html(recorded(room, options), {{"view", "png"}}, "out", {});
   CHECK(page.find(" not assessed") != std::string::npos);
   CHECK(page.find("complies with EN") == std::string::npos);
   CHECK(page.find("http-equiv") == std::string::npos);

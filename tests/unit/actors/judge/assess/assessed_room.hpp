@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "actors/judge/assess/assessment.hpp"
+#include "actors/judge/assess/record_assessment.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/replaced.hpp"
 #include "tests/kit/room_texts.hpp"
@@ -57,6 +57,11 @@ inline Assessment assessed(const std::string& text, const AssessOptions& options
   INFO((result.ok() ? "" : result.problem().text()));
   REQUIRE(result.ok());
   return std::move(result).value();
+}
+
+/// The record of its assessment, by version "1.2.3" of the program.
+inline AssessmentRecord recorded(const std::string& text, const AssessOptions& options = {}) {
+  return record_of(*described_text(text), assessed(text, options), "1.2.3");
 }
 
 inline std::string with_smoke(double extinction, double albedo) {

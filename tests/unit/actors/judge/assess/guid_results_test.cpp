@@ -3,36 +3,52 @@
 
 #include <catch2/catch.hpp>
 
-#include "actors/judge/texts/remark_json.hpp"
-
 using namespace luxodus;
 
 namespace {
 
+LuminaireRecord luminaire(const char* name, const char* guid, double lm) {
+  LuminaireRecord out;
+  out.name = name;
+  out.ifc_guid = guid;
+  out.emergency_flux = {lm, "lm"};
+  return out;
+}
+
+CheckRecord check(RuleId rule, const Subject& subject) {
+  CheckRecord out;
+  out.rule.id = rule;
+  out.subject = subject;
+  out.verdict = CheckVerdict::fail;
+  return out;
+}
+
+SightRecord sight(const char* sign, SightVerdict verdict) {
+  SightRecord out;
+  out.sign = sign;
+  out.verdict = verdict;
+  return out;
+}
+
 /// An assessment with the parts that the table is made of.
-Json small_assessment() {
-  return {{"luminaires",
-           {{{"name", "lamp"},
-             {"ifc_guid", "L1"},
-             {"emergency_flux", {{"value", 120.0}, {"unit", "lm"}}}},
-            {{"name", "other"}, {"emergency_flux", {{"value", 5.0}, {"unit", "lm"}}}}}},
-          {"signs", {{{"name", "exit"}, {"ifc_guid", "S1"}}}},
-          {"places", {{"areas", {{{"name", "hall"}, {"kind", "open"}, {"ifc_guid", "R1"}}}}}},
-          {"checks",
-           {{{"subject", subject_json({SubjectKind::open_area, "hall"})},
-             {"rule", "E6"},
-             {"title", "core"},
-             {"value", 0.75},
-             {"limit", 0.5},
-             {"unit", "lx"},
-             {"verdict", "pass"}},
-            {{"subject", subject_json({SubjectKind::luminaire, "other"})},
-             {"rule", "E14"},
-             {"verdict", "fail"}}}},
-          {"sights",
-           {{{"sign", "exit"}, {"verdict", "legible"}},
-            {{"sign", "exit"}, {"verdict", "hidden"}},
-            {{"sign", "other"}, {"verdict", "legible"}}}}};
+AssessmentRecord small_assessment() {
+  AssessmentRecord out;
+  out.luminaires = {luminaire("lamp", "L1", 120), luminaire("other", "", 5)};
+  SignRecord& exit = out.signs.emplace_back();
+  exit.name = "exit";
+  exit.ifc_guid = "S1";
+  AreaRecord& hall = out.places.areas.emplace_back();
+  hall.name = "hall";
+  hall.ifc_guid = "R1";
+  CheckRecord core = check(RuleId::E6, {SubjectKind::open_area, "hall"});
+  core.value = 0.75;
+  core.limit = 0.5;
+  core.unit = "lx";
+  core.verdict = CheckVerdict::pass;
+  out.checks = {core, check(RuleId::E14, {SubjectKind::luminaire, "other"})};
+  out.sights = {sight("exit", SightVerdict::legible), sight("exit", SightVerdict::invisible),
+                sight("other", SightVerdict::legible)};
+  return out;
 }
 
 }  // namespace
@@ -44,28 +60,32 @@ TEST_CASE("checks, fluxes and views are listed by the GlobalId of their thing", 
         "ifc_guid,kind,name,rule_set,rule,edition,clause,title,condition,value,unit,sense,limit,"
         "verdict,reason\n"
         "L1,luminaire,lamp,,,,,emergency flux,,120,lm,,,information,\n"
-        "R1,space,hall,,E6,,,core,,0.75,lx,,0.5,pass,\n"
-        "S1,sign,exit,,,,,views from which it is legible,,1,of 2,,,information,"
-        "\"1 hidden, 1 legible\"\n");
+        "R1,space,hall,,E6,,," +
+            english().rule_title("E6") +
+            ",,0.75,lx,at least,0.5,pass,\n"
+            "S1,sign,exit,,,,,views from which it is legible,,1,of 2,,,information,"
+            "\"1 invisible, 1 legible\"\n");
 }
 
 TEST_CASE("without GlobalIds there is no table of results by GlobalId", "[assess]") {
-  Json assessment = small_assessment();
-  assessment["luminaires"][0].erase("ifc_guid");
-  assessment["signs"][0].erase("ifc_guid");
-  assessment["places"]["areas"][0].erase("ifc_guid");
+  AssessmentRecord assessment = small_assessment();
+  assessment.luminaires[0].ifc_guid = "";
+  assessment.signs[0].ifc_guid = "";
+  assessment.places.areas[0].ifc_guid = "";
   CHECK_FALSE(results_by_guid(assessment));
 }
 
 TEST_CASE("checks by GlobalId are properties with the measures of IFC", "[assess]") {
-  Json assessment = small_assessment();
-  assessment["checks"][0]["rule_set"] = "en1838-2024";
+  AssessmentRecord assessment = small_assessment();
+  assessment.checks[0].rule.set = "en1838-2024";
   const auto table = property_sets_by_guid(assessment);
+  const std::string title = "E6 " + english().rule_title("E6");
   REQUIRE(table);
   CHECK(table->text() ==
         "GlobalId,PropertySet,Property,Value,ValueType,Unit\n"
         "L1,Luxodus_EmergencyLighting,EmergencyFlux,120,IfcLuminousFluxMeasure,lm\n"
-        "R1,Luxodus_en1838-2024,E6 core: value,0.75,IfcIlluminanceMeasure,lx\n"
-        "R1,Luxodus_en1838-2024,E6 core: limit,0.5,IfcIlluminanceMeasure,lx\n"
-        "R1,Luxodus_en1838-2024,E6 core: verdict,pass,IfcLabel,\"\"\n");
+        "R1,Luxodus_en1838-2024," +
+            title + ": value,0.75,IfcIlluminanceMeasure,lx\n" + "R1,Luxodus_en1838-2024," + title +
+            ": limit,0.5,IfcIlluminanceMeasure,lx\n" + "R1,Luxodus_en1838-2024," + title +
+            ": verdict,pass,IfcLabel,\"\"\n");
 }

@@ -4,9 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "actors/judge/assess/assessment_check.hpp"
-#include "actors/judge/assess/assessment_json.hpp"
-#include "actors/judge/assess/over_time_json.hpp"
+#include "actors/judge/assess/guidance_words.hpp"
 #include "tests/kit/small_fire.hpp"
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
 
@@ -74,8 +72,8 @@ TEST_CASE("a route is guided until the lower boundary of the smoke passes the si
   CHECK(time.lost_by_s == 46);
   CHECK(time.lost_at_m == 0);
   CHECK(route.signs.at(0).at(0) == "exit");
-  CHECK(all.low_albedo == 0.1);
-  CHECK(all.high_albedo == 0.5);
+  CHECK(all.holds_for.low_albedo == 0.1);
+  CHECK(all.holds_for.high_albedo == 0.5);
 }
 
 TEST_CASE("when smoke thickens, no further place becomes guided", "[assess][time]") {
@@ -143,13 +141,13 @@ TEST_CASE("a person who sets out in time is guided to the end", "[assess][time]"
   const auto& walks = all.routes.front().walks;
   REQUIRE(walks.size() == 4);
   // The last place is 6.67 m along the route: 13.3 s of walking.
-  CHECK(walks.at(0).end == Walk::End::arrives);
+  CHECK(walks.at(0).end == GuidedWalk::End::arrives);
   // From there he walks until 40 s, and the state of 46 s is not guided.
-  CHECK(walks.at(1).end == Walk::End::lost);
+  CHECK(walks.at(1).end == GuidedWalk::End::lost);
   CHECK(walks.at(1).at_m == Approx(20.0 / 3));
-  CHECK(walks.at(2).end == Walk::End::lost);
+  CHECK(walks.at(2).end == GuidedWalk::End::lost);
   CHECK(walks.at(2).at_m == 0);
-  CHECK(walks.at(3).end == Walk::End::lost);
+  CHECK(walks.at(3).end == GuidedWalk::End::lost);
   CHECK(walks.at(3).at_m == 0);
 }
 
@@ -200,17 +198,15 @@ TEST_CASE("FDS's own visibility is shown beside the verdicts if the case has sli
   CHECK(route.by_line.at[2] == std::vector<Guidance>(3, Guidance::guided));
   // Smoke this thin hides no sign, whatever the slice gives.
   CHECK(route.guided.holds(2));
-  const Json json = over_time_json(all);
-  CHECK(json["routes"][0]["fds"][1].text() == "nng");
-  CHECK(json["routes"][0]["time_by_fds"]["until"]["value"] == 0);
-  CHECK(guidance_csv(json).text().find("guided,exit,guided,guided,6,not guided\n") !=
+  CHECK(guided_time(route.by_fds).until_s == 0);
+  CHECK(guidance_csv(all).text().find("guided,exit,guided,guided,6,not guided\n") !=
         std::string::npos);
-  CHECK(guidance_text(json).find("by FDS's VISIBILITY up to 0 s, lost by 30 s") !=
+  CHECK(guidance_text(all).find("by FDS's VISIBILITY up to 0 s, lost by 30 s") !=
         std::string::npos);
 
   const OverTime without = traced(index);
   CHECK(without.routes.front().by_fds.at.empty());
-  CHECK_FALSE(over_time_json(without)["routes"][0].contains("fds"));
+  CHECK(guidance_text(without).find("by FDS") == std::string::npos);
   // A slice that cannot be read changes no verdict, and is reported once.
   folder.write("v.sf", "short");
   const OverTime damaged =
@@ -284,25 +280,29 @@ TEST_CASE("guidance over time is written to JSON and read back, and faults in it
                                       "walking_speed = 1\n");
   Assessment assessment = test::assessed(text, test::codes_alone());
   assessment.over_time = over(text, {0, 20, 40, 60});
-  const Json json = assessment_json(*test::described_text(text), assessment, "1");
-  CHECK(check_assessment(json));
+  const AssessmentRecord record = record_of(*test::described_text(text), assessment, "1");
+  const Json json = assessment_json(record);
+  const auto again = assessment_of(json);
+  REQUIRE(again);
+  CHECK(assessment_json(again.value()) == json);
+  CHECK(guidance_text(*again->over_time) == guidance_text(*record.over_time));
   const Json& route = json["over_time"]["routes"][0];
   CHECK(route["guided"][0].text() == "ggg");
   CHECK(route["time"]["until"]["value"] == 60);
   CHECK(route["time"]["lost_by"].is_null());
   CHECK(route["walks"].size() == 4);
-  const std::string csv = guidance_csv(json["over_time"]).text();
+  const std::string csv = guidance_csv(*again->over_time).text();
   CHECK(csv.find("way,1.65,0,0,guided,exit,guided,guided,,\n") != std::string::npos);
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 1 + 4 * 3);
-  CHECK(guidance_text(json["over_time"]).find("up to the last state, 60 s") != std::string::npos);
+  CHECK(guidance_text(*again->over_time).find("up to the last state, 60 s") != std::string::npos);
   Json cut = json;
   cut["over_time"]["routes"][0]["guided"][0] = "gg";
-  const auto short_of = check_assessment(cut);
+  const auto short_of = assessment_of(cut);
   REQUIRE_FALSE(short_of);
   CHECK(short_of.problem().what.find("as many values") != std::string::npos);
   Json silent = json;
   silent["over_time"]["states"] = Json::array();
-  const auto empty = check_assessment(silent);
+  const auto empty = assessment_of(silent);
   REQUIRE_FALSE(empty);
   CHECK(empty.problem().what == "over_time.states is empty");
 }

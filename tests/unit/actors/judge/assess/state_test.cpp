@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/compare.hpp"
 #include "actors/judge/assess/reality_mode.hpp"
 #include "actors/judge/assess/state_words.hpp"
 #include "actors/judge/report/report.hpp"
@@ -111,11 +111,12 @@ TEST_CASE("mains operation is judged only if it is named, and is then reported f
   REQUIRE_FALSE(a.warnings.empty());
   CHECK(a.warnings.front().remark == remark(RemarkId::mains_operation));
   CHECK(a.warnings.front().place.line > 0);
-  const Json json = assessment_json(*described_text(text), a, "1");
-  CHECK(json["state"]["operation"] == "mains");
-  CHECK(has(state_text(json), "MAINS: not an emergency"));
-  CHECK(has(json["state"]["remarks"].dump(), "Checks by the codes are for emergency operation"));
-  CHECK(json["state"]["luminaires"]["lit"] == 0);  // non-maintained
+  const AssessmentRecord record = record_of(*described_text(text), a, "1");
+  CHECK(record.state.operation == Operation::mains);
+  CHECK(has(state_text(record), "MAINS: not an emergency"));
+  CHECK(has(english().remarks(record.state.remarks),
+            "Checks by the codes are for emergency operation"));
+  CHECK(record.state.luminaires.lit == 0);  // non-maintained
 }
 
 TEST_CASE("no rule set is assumed, and a scene may name its own", "[assess][state]") {
@@ -159,7 +160,8 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
       "[[emitter]]\nname = \"hall\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
       "position = [3, 0, 2.5]\nflux_lm = 1000\n";
   const Assessment a = assessed(text, one_round());
-  const Json json = assessment_json(*described_text(text), a, "1");
+  const AssessmentRecord record = record_of(*described_text(text), a, "1");
+  const Json json = assessment_json(record);
   const Json& s = json["state"];
   CHECK(s["scenario"] == "failed");
   CHECK(s["operation"] == "emergency");
@@ -175,7 +177,7 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
   CHECK(s["rules"][0]["edition"] == "EN 1838:2013");
   CHECK(s["rules"][0]["status"]["id"] == "superseded");
   CHECK(has(s["light"]["text"], "the worse verdict counts"));
-  CHECK(json["verdict"]["words"] == verdict_words(json));
+  CHECK(json["verdict"]["words"] == words_of(counts_of(a.checks)));
   CHECK(json["verdict"]["fail"] == json["counts"]["fail"]);
   CHECK(json["counts"]["not_verified"].get<int>() > 0);  // S6a
   size_t unassessed = 0;
@@ -184,17 +186,14 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
     if (group["what"] != "views of signs") unassessed += group["count"].get<size_t>();
   }
   CHECK(unassessed == json["counts"]["not_assessed"].get<size_t>());
-  const std::string words = state_text(json);
+  const std::string words = state_text(record);
   CHECK(has(words, "emergency, 5 s after the failure of the mains"));
   CHECK(has(words, "1 of 2 lit: lamp"));
   CHECK(has(words, "eyes are not yet adapted"));
-  const std::string page = report_html(json, {}, "out", {});
+  const std::string page = report_html(record, {}, "out", {});
   CHECK(page.find("1 of 2 lit") < page.find("<h2 "));  // beside the verdict
-  CHECK(page.find(verdict_words(json)) < page.find("<h2 "));
+  CHECK(page.find(record.verdict.words) < page.find("<h2 "));
   CHECK(has(page, "eyes are not yet adapted"));
-  Json old = json;
-  old.erase("state");
-  CHECK(has(state_text(old), "not recorded"));
 }
 
 TEST_CASE("eyes count as unadapted within a minute of the failure, and not after",
@@ -203,12 +202,12 @@ TEST_CASE("eyes count as unadapted within a minute of the failure, and not after
     const std::string text = replaced_all(
         room, "operation = \"emergency\"\n",
         "operation = \"emergency\"\nseconds_after_failure = " + std::to_string(seconds) + "\n");
-    const Json json = state_json(assessed(text, codes_alone()).state);
-    CHECK(has(json["remarks"].dump(), "eyes are not yet adapted") == (seconds < 60));
+    const AssessedState judged = assessed(text, codes_alone()).state;
+    CHECK(has(english().remarks(judged.remarks), "eyes are not yet adapted") == (seconds < 60));
   }
-  const Json unsaid = state_json(assessed(room, codes_alone()).state);
-  CHECK(unsaid["seconds_after_failure"].is_null());
-  CHECK(has(unsaid["remarks"].dump(), "does not say how long after the failure"));
+  const AssessedState unsaid = assessed(room, codes_alone()).state;
+  CHECK_FALSE(unsaid.seconds_after_failure);
+  CHECK(has(english().remarks(unsaid.remarks), "does not say how long after the failure"));
 }
 
 TEST_CASE("remarks name clear air in a scene with smoke, and luminaires that are off",
@@ -220,7 +219,7 @@ TEST_CASE("remarks name clear air in a scene with smoke, and luminaires that are
   const auto remarks = [&](const std::string& scenario) {
     AssessOptions options = codes_alone();
     options.scenario = scenario;
-    return state_json(assessed(text, options).state)["remarks"].dump();
+    return english().remarks(assessed(text, options).state.remarks);
   };
   CHECK(has(remarks("clear"), "CLEAR AIR"));
   CHECK_FALSE(has(remarks("fire"), "CLEAR AIR"));
@@ -230,8 +229,7 @@ TEST_CASE("remarks name clear air in a scene with smoke, and luminaires that are
 
 TEST_CASE("views are judged in aged and in new light, and the worse verdict counts",
           "[assess][state]") {
-  const Json aged_and_new =
-      assessment_json(*described_text(room), assessed(room, one_round()), "1");
+  const Json aged_and_new = assessment_json(recorded(room, one_round()));
   // This scene with all ageing factors 1: its light is the new light.
   const std::string fresh =
       replaced_all(replaced_all(room, "maintenance_factor = 0.8", "maintenance_factor = 1"),
@@ -335,29 +333,30 @@ TEST_CASE("in mains operation new light is the light before maintenance only", "
 TEST_CASE("a comparison reports that two judged states differ", "[assess][state]") {
   const std::string text = in_states(state("fire", emergency) + state("clear", emergency + clear));
   AssessOptions options = codes_alone();
-  const auto json = [&](const std::string& scenario) {
+  const auto judged = [&](const std::string& scenario) {
     options.scenario = scenario;
-    return assessment_json(*described_text(text), assessed(text, options), "1");
+    return recorded(text, options);
   };
-  const std::string said = comparison_text(comparison_of(json("fire"), json("clear")));
+  const std::string said = comparison_text(comparison_of(judged("fire"), judged("clear")));
   CHECK(has(said, "scenario: fire -> clear"));
-  CHECK(comparison_of(json("fire"), json("fire"))["state"].empty());
+  CHECK(comparison_of(judged("fire"), judged("fire")).state.empty());
 }
 
 TEST_CASE("checks that fail and checks or views without a clear verdict are open",
           "[assess][state]") {
-  const Json done = {
-      {"counts", {{"pass", 3}, {"fail", 0}, {"not_assessed", 0}, {"not_verified", 0}}},
-      {"sight_counts", {{"legible", 4}, {"invisible", 1}}}};
+  AssessmentRecord done;
+  done.counts.pass = 3;
+  done.sight_counts = {{"legible", 4}, {"invisible", 1}};
   CHECK_FALSE(anything_open(done));
-  for (const char* verdict : {"fail", "not_assessed", "not_verified"}) {
-    Json open = done;
-    open["counts"][verdict] = 1;
+  for (const auto verdict :
+       {&CountsRecord::fail, &CountsRecord::not_assessed, &CountsRecord::not_verified}) {
+    AssessmentRecord open = done;
+    open.counts.*verdict = 1;
     CHECK(anything_open(open));
   }
   for (const char* verdict : {"undecided", "not assessed"}) {
-    Json open = done;
-    open["sight_counts"][verdict] = 1;
+    AssessmentRecord open = done;
+    open.sight_counts[verdict] = 1;
     CHECK(anything_open(open));
   }
 }

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/record_assessment.hpp"
 #include "actors/judge/design/design_page.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
@@ -43,7 +43,7 @@ TEST_CASE("a page has the plans of all layouts that were judged, each with its l
   const DesignResult more = test::designed(folder.write("full.toml", room("failure = \"full\"\n")));
   REQUIRE(more.luminaires.size() > best.luminaires.size());
   const std::string last = more.luminaires.back().name;
-  const Json assessed = assessment_json(*best.variant, best.assessment, "1");
+  const AssessmentRecord assessed = record_of(*best.variant, best.assessment, "1");
   CHECK(layout_plans(best, "1").empty());
   const std::string alone =
       design_page(design_json(*scene, best, "1"), assessed, layout_plans(best, "1"), Language::en);

@@ -4,9 +4,6 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "actors/judge/assess/assessment_check.hpp"
-#include "actors/judge/assess/assessment_json.hpp"
-#include "actors/judge/assess/over_time_json.hpp"
 #include "actors/judge/report/guidance_map.hpp"
 #include "actors/judge/report/report.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -24,10 +21,10 @@ bool holds_text(const std::string& text, const std::string& piece) {
 }
 
 /// A route with three places, three states and two walkers.
-Json with_guidance() {
+AssessmentRecord with_guidance() {
   OverTime over;
   over.walking_speed_m_s = 0.5;
-  over.low_albedo = 0.1, over.high_albedo = 0.5;
+  over.holds_for = {0.1, 0.5, 0};
   RouteOverTime route;
   route.route = "way <out>";
   route.eye_height_m = 1.65;
@@ -40,20 +37,19 @@ Json with_guidance() {
   route.by_jin = route.by_line = route.by_fds = route.guided;
   route.visibility_m.assign(3, {30.0, 12.5, std::nullopt});
   route.signs.assign(3, {"exit", "exit", ""});
-  for (const double start : {0.0, 60.0}) route.walks.push_back(walk(route.guided, start, 0.5));
+  for (const double start : {0.0, 60.0}) route.walks.push_back({walk(route.guided, start, 0.5)});
   over.routes.push_back(route);
   AssessOptions options;
   options.reality = false;
-  Json a = assessment_json(*described_text(room), assessed(room, options), "1");
-  a["over_time"] = over_time_json(over);
+  AssessmentRecord a = recorded(room, options);
+  a.over_time = over;
   return a;
 }
 
 }  // namespace
 
 TEST_CASE("a report says and draws until when routes are guided, in each language", "[report]") {
-  const Json a = with_guidance();
-  REQUIRE(check_assessment(a));
+  const AssessmentRecord a = with_guidance();
   const std::array<const char*, 3> until{"up to 0 s, lost by 30 s", "bis 0 s, verloren bis 30 s",
                                          "jusqu’à 0 s, perdu à 30 s"};
   for (const Language language : {Language::en, Language::de, Language::fr}) {
@@ -66,11 +62,11 @@ TEST_CASE("a report says and draws until when routes are guided, in each languag
     CHECK(holds_text(page, "way &lt;out&gt;"));
     CHECK_FALSE(holds_text(page, "way <out>"));
   }
-  Json silent = a;
-  silent.erase("over_time");
+  AssessmentRecord silent = a;
+  silent.over_time.reset();
   CHECK_FALSE(holds_text(report_html(silent, {}, "out/x", {}), "id=\"over-time\""));
   const std::string map =
-      guidance_map(a["over_time"], a["over_time"]["routes"][0], Texts(Language::en), 180);
+      guidance_map(*a.over_time, a.over_time->routes[0], Texts(Language::en), 180);
   GError* error = nullptr;
   RsvgHandle* drawing =
       rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(map.data()), map.size(), &error);

@@ -14,8 +14,7 @@
 #include <set>
 #include <sstream>
 
-#include "actors/judge/assess/assessment_check.hpp"
-#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/assessment_files.hpp"
 #include "actors/judge/report/hand_over.hpp"
 #include "actors/judge/report/isolux.hpp"
 #include "actors/judge/report/pdf.hpp"
@@ -42,20 +41,24 @@ date = 2026-11-23
 )";
 
 /// One round of paths, so that it takes a second.
-const Json& assessed_json() {
-  static const Json json = [] {
+const AssessmentRecord& room_record() {
+  static const AssessmentRecord record = [] {
     AssessOptions options;
     options.rounds = 1;
-    const std::string text = project + room;
-    return assessment_json(*described_text(text), assessed(text, options), "1.2.3");
+    return recorded(project + room, options);
   }();
+  return record;
+}
+
+const Json& assessed_json() {
+  static const Json json = assessment_json(room_record());
   return json;
 }
 
 std::string page_in(Language language) {
   ReportOptions options;
   options.language = language;
-  return report_html(assessed_json(), {}, "out/x", options);
+  return report_html(room_record(), {}, "out/x", options);
 }
 
 bool has(const std::string& text, const std::string& piece) {
@@ -134,10 +137,11 @@ TEST_CASE(
   above.low_m = 3;
   const auto plan_of = [&](std::vector<Backdrop> backdrops) {
     scene.backdrops = std::move(backdrops);
-    const Json a = assessment_json(scene, assessed(room, options), "1.2.3");
-    const auto checked = check_assessment(a);
-    INFO((checked ? "" : checked.problem().what));
-    REQUIRE(checked);
+    const auto read =
+        assessment_of(assessment_json(record_of(scene, assessed(room, options), "1.2.3")));
+    INFO((read ? "" : read.problem().what));
+    REQUIRE(read);
+    const AssessmentRecord& a = read.value();
     const Schedule schedule(a);
     const Texts texts(Language::en);
     return Plans(a, schedule, texts, {}).installation(0);
@@ -161,31 +165,29 @@ TEST_CASE(
   }
   // A damaged picture and one without a place are refused.
   scene.backdrops = {picture};
-  Json a = assessment_json(scene, assessed(room, options), "1.2.3");
+  Json a = assessment_json(record_of(scene, assessed(room, options), "1.2.3"));
   a["plan"]["backdrops"][0]["png"] = "\"><script>";
-  CHECK_FALSE(check_assessment(a));
+  CHECK_FALSE(assessment_of(a));
   a["plan"]["backdrops"][0].erase("png");
-  CHECK_FALSE(check_assessment(a));
+  CHECK_FALSE(assessment_of(a));
 }
 
 TEST_CASE("signs are listed with their words, and paths break after folders", "[report]") {
   CHECK(has(page_in(Language::fr), "“EXIT”"));
-  Json drawn = assessed_json();
-  drawn["signs"][0]["text"] = "";
-  drawn["signs"][0]["file"] = "../zeichen/Ausgänge & mehr.svg";
+  AssessmentRecord drawn = room_record();
+  drawn.signs[0].text = "";
+  drawn.signs[0].file = "../zeichen/Ausgänge & mehr.svg";
   CHECK(has(report_html(drawn, {}, "x", {}), "../<wbr>zeichen/<wbr>Ausgänge &amp; mehr.svg"));
 }
 
 TEST_CASE("verdicts have words in each language", "[report]") {
-  const auto counted = [](int fail, int open, int unverified, int pass) {
-    return Json{
-        {"verdict",
-         {{"fail", fail}, {"not_assessed", open}, {"not_verified", unverified}, {"pass", pass}}}};
-  };
-  const auto said = [](Language language, const Json& one) {
+  const auto said = [](Language language, const CountsRecord& one) {
     return verdict_words(Texts(language), one);
   };
-  const Json none = counted(0, 6, 1, 9), one = counted(1, 1, 0, 9), many = counted(3, 0, 0, 9);
+  const CountsRecord none{.pass = 9, .fail = 0, .not_assessed = 6, .not_verified = 1},
+      one{.pass = 9, .fail = 1, .not_assessed = 1, .not_verified = 0},
+      many{.pass = 9, .fail = 3, .not_assessed = 0, .not_verified = 0},
+      unmade{.pass = 0, .fail = 0, .not_assessed = 4, .not_verified = 0};
   CHECK(said(Language::en, none) == "no check made fails, 6 not assessed, 1 not verified");
   CHECK(said(Language::de, none) ==
         "keine der durchgeführten Prüfungen schlägt fehl, 6 nicht bewertet, 1 nicht belegt");
@@ -194,21 +196,21 @@ TEST_CASE("verdicts have words in each language", "[report]") {
   CHECK(said(Language::en, one) == "1 check fails, 1 not assessed");
   CHECK(said(Language::de, one) == "1 Prüfung nicht bestanden, 1 nicht bewertet");
   CHECK(said(Language::fr, many) == "3 contrôles non satisfaits, 0 non évalué");
-  CHECK(said(Language::de, counted(0, 4, 0, 0)) == "keine Prüfung war möglich, 4 nicht bewertet");
+  CHECK(said(Language::de, unmade) == "keine Prüfung war möglich, 4 nicht bewertet");
 }
 
 TEST_CASE("the headline of a report says in each language what a terminal says first", "[report]") {
-  const Json& a = assessed_json();
-  CHECK(headline(Texts(Language::en), a) == a["verdict"]["first"]);
-  Json smoky = a;
-  smoky["state"]["scenario"] = "Brand";
-  smoky["state"]["seconds_after_failure"] = {{"value", 600}, {"unit", "s"}};
-  smoky["state"]["smoke"] = {{"extinction", {{"min", 0.05}, {"max", 2}, {"unit", "1/m"}}}};
-  smoky["verdict"] = {{"fail", 2}, {"not_assessed", 1}, {"not_verified", 0}, {"pass", 7}};
-  smoky["sight_counts"] = {{"legible", 3}, {"invisible", 5}};
+  const AssessmentRecord& a = room_record();
+  CHECK(headline(Texts(Language::en), a) == a.verdict.first);
+  AssessmentRecord smoky = a;
+  smoky.state.scenario = "Brand";
+  smoky.state.seconds_after_failure = 600;
+  smoky.state.smoke = {{0.05, 2, 633}, {}};
+  smoky.counts = {.pass = 7, .fail = 2, .not_assessed = 1, .not_verified = 0};
+  smoky.sight_counts = {{"legible", 3}, {"invisible", 5}};
   CHECK(headline(Texts(Language::de), smoky) ==
         "„Brand“, Notbetrieb, 600 s nach dem Netzausfall, in Rauch von 0,05/m bis 2/m, nach " +
-            text_in(a["state"]["rules"][0], "edition") +
+            a.state.rules[0].edition +
             ": 2 Prüfungen nicht bestanden, 1 nicht bewertet; 3 von 8 Sichten auf Zeichen sind "
             "lesbar");
   for (const Language language : {Language::en, Language::de, Language::fr})
@@ -253,14 +255,13 @@ TEST_CASE("the sections of a report run from the verdict to the method", "[repor
     CHECK(at > before);
     before = at;
   }
-  const Json& a = assessed_json();
-  CHECK(page.find(a["verdict"]["words"].get<std::string>()) < page.find("<h2 "));
+  const AssessmentRecord& a = room_record();
+  CHECK(page.find(a.verdict.words) < page.find("<h2 "));
   CHECK(has(page, "Hall &lt;of&gt; tests"));
   CHECK(has(page, "A &amp; B"));
-  CHECK(has(page, a["scene"]["content_hash"].get<std::string>()));
+  CHECK(has(page, a.scene.content_hash));
   CHECK(has(page, "Luxodus 1.2.3"));
-  for (const Json& check : a["checks"])
-    CHECK(has(page, escaped(check["edition"].get<std::string>())));
+  for (const Check& check : a.checks) CHECK(has(page, escaped(check.rule.edition)));
   // Without pictures the page names the command that makes them.
   CHECK((has(page, "luxodus run") || has(page, "[[camera]]")));
 }
@@ -292,7 +293,7 @@ void add_paths(const Json& value, const std::string& path, std::vector<std::stri
 }  // namespace
 
 TEST_CASE("a missing key is reported by name, and no report crashes without it", "[report]") {
-  REQUIRE(check_assessment(assessed_json()));
+  REQUIRE(assessment_of(assessed_json()));
   std::vector<std::string> paths;
   for (const auto& [key, value] : assessed_json().items()) add_paths(value, key, paths);
   std::set<std::string> tried;
@@ -308,26 +309,26 @@ TEST_CASE("a missing key is reported by name, and no report crashes without it",
     Json& above = slash == std::string::npos ? cut : *cut.at_path(path.substr(0, slash));
     CHECK(above.erase(key) == 1);
     INFO(path);
-    if (const auto checked = check_assessment(cut); !checked) {
+    if (const auto read = assessment_of(cut); !read) {
       ++faults;
-      CHECK(has(checked.problem().what, key));
+      CHECK(has(read.problem().what, key));
     } else {
-      CHECK(has(report_html(cut, {}, "x", {}), "</html>"));
+      CHECK(has(report_html(read.value(), {}, "x", {}), "</html>"));
     }
   }
   CHECK(faults > 60);
   Json wrong = assessed_json();
   wrong["checks"][0]["verdict"] = 3;
-  CHECK(check_assessment(wrong).problem().what == "checks[0].verdict is not a text");
+  CHECK(assessment_of(wrong).problem().what == "checks[0].verdict is not a text");
   wrong = assessed_json();
   wrong["signs"][0]["position"][0] = 1e300;
-  CHECK_FALSE(check_assessment(wrong));
+  CHECK_FALSE(assessment_of(wrong));
   wrong = assessed_json();
   wrong["project"]["logo_png"] = "\"><script>";
-  CHECK(check_assessment(wrong).problem().what == "project.logo_png is no picture");
+  CHECK(assessment_of(wrong).problem().what == "project.logo_png is no picture");
   wrong = assessed_json();
   wrong["plan"]["levels"][0]["map"]["columns"] = 1e6;
-  CHECK_FALSE(check_assessment(wrong));
+  CHECK_FALSE(assessment_of(wrong));
 }
 
 TEST_CASE("a damaged assessment is refused with its file and the missing key", "[report]") {
@@ -353,15 +354,15 @@ TEST_CASE("lines of equal illuminance match the closed form and end at walls", "
   const double intensity = 300 / (4 * std::numbers::pi), h = 2.5 - 0.02;
   const auto lux = [&](double r) { return intensity * h / std::pow(h * h + r * r, 1.5); };
   size_t points = 0;
-  for (const IsoluxLine& one : isolux_lines(assessed_json()["plan"]["levels"][0]))
+  for (const IsoluxLine& one : isolux_lines(room_record().plan.levels[0]))
     for (const glm::dvec2& p : one.line.points) {
       ++points;
       CHECK(lux(glm::length(p - glm::dvec2(6, 0))) == Approx(one.lux).epsilon(0.03));
     }
   CHECK(points > 10);
   // A wall across the room: lines end on both sides of it.
-  Json walled = assessed_json()["plan"]["levels"][0];
-  walled["walls"].push_back({6.0, -2.0, 6.0, 2.0});
+  PlanLevel walled = room_record().plan.levels[0];
+  walled.walls.push_back({{6, -2}, {6, 2}});
   for (const IsoluxLine& one : isolux_lines(walled))
     for (const glm::dvec2& p : one.line.points) CHECK(std::abs(p.x - 6) > 0.1);
 }
@@ -369,20 +370,20 @@ TEST_CASE("lines of equal illuminance match the closed form and end at walls", "
 TEST_CASE("no line of equal illuminance follows dark grid points within a wall", "[report]") {
   // Two rows of grid points in a wall below a pane, where the plan shows the pane; the room is
   // evenly lit.
-  Json level = assessed_json()["plan"]["levels"][0];
-  Json& map = level["map"];
-  const auto columns = map["columns"].get<size_t>();
-  for (size_t i = 0; i < map["lux"].size(); ++i) map["lux"][i] = i < 2 * columns ? 0 : 3;
-  level["walls"] = Json::array();
+  PlanLevel level = room_record().plan.levels[0];
+  LightMap& map = level.map;
+  const auto columns = static_cast<size_t>(map.columns);
+  for (size_t i = 0; i < map.lux.size(); ++i) map.lux[i] = {i < 2 * columns ? 0.0 : 3.0};
+  level.walls.clear();
   CHECK_FALSE(isolux_lines(level).empty());
-  const double x = map["corner"][0], y = map["corner"][1], spacing = map["spacing"];
-  level["walls"].push_back({x - 1, y + spacing / 2, x + 30, y + spacing / 2});
+  const glm::dvec2 between = map.corner + glm::dvec2(0, map.spacing_m / 2);
+  level.walls.push_back({between - glm::dvec2(1, 0), between + glm::dvec2(30, 0)});
   CHECK(isolux_lines(level).empty());
 }
 
 TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[report]") {
   const TemporaryFolder folder;
-  const Json& a = assessed_json();
+  const AssessmentRecord& a = room_record();
   const Schedule schedule(a);
   const fs::path path = folder / "plan.dxf";
   REQUIRE(write_plan_dxf(path, a, schedule, 0).ok());
@@ -396,8 +397,8 @@ TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[
     INFO(layer);
     CHECK(read.on_layer.contains(layer));
   }
-  CHECK(read.on_layer["WALLS"] == static_cast<int>(a["plan"]["levels"][0]["walls"].size()));
-  const auto lines = isolux_lines(a["plan"]["levels"][0]);
+  CHECK(read.on_layer["WALLS"] == static_cast<int>(a.plan.levels[0].walls.size()));
+  const auto lines = isolux_lines(a.plan.levels[0]);
   const auto count = [&](double lux) {
     return std::count_if(lines.begin(), lines.end(),
                          [&](const IsoluxLine& one) { return one.lux == lux; });
@@ -405,7 +406,7 @@ TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[
   CHECK(count(1) > 0);
   CHECK(read.on_layer["ISOLUX_1"] == count(1));
   CHECK(read.on_layer["ISOLUX_0_5"] == count(0.5));
-  REQUIRE(read.inserts.size() == a["luminaires"].size() + a["signs"].size());
+  REQUIRE(read.inserts.size() == a.luminaires.size() + a.signs.size());
   CHECK(read.inserts[0].name == "LUMINAIRE_A");
   CHECK(read.inserts[0].ipx == Approx(6));
   CHECK(read.inserts[0].ipz == Approx(2.5));
@@ -445,7 +446,7 @@ TEST_CASE("plans are valid SVG drawings with a scale and a north arrow", "[repor
   const TemporaryFolder folder;
   ReportOptions options;
   options.grid_values = true;
-  REQUIRE(write_report(fs::path(folder / ""), assessed_json(), options).ok());
+  REQUIRE(write_report(fs::path(folder / ""), room_record(), options).ok());
   for (const char* name : {"installation.svg", "isolux.svg", "legibility_1.65m.svg"}) {
     const std::string svg = content(fs::path(folder / "plans") / name);
     INFO(name);
@@ -468,12 +469,12 @@ TEST_CASE("the plan of the installation explains each of its symbols in each lan
           "[report]") {
   for (const Language language : {Language::en, Language::de, Language::fr}) {
     const Texts texts(language);
-    const Schedule schedule(assessed_json());
+    const Schedule schedule(room_record());
     // At the width of a small figure entries that do not fit continue in another row, within the
     // drawing.
     for (const double width : {120.0, 267.0}) {
       const std::string svg =
-          Plans(assessed_json(), schedule, texts, {width, 150}).installation(0).svg;
+          Plans(room_record(), schedule, texts, {width, 150}).installation(0).svg;
       const size_t legend = svg.find("class=\"legend\"");
       REQUIRE(legend != std::string::npos);
       for (const char* symbol :
@@ -502,14 +503,13 @@ TEST_CASE("the plan of the installation explains each of its symbols in each lan
 }
 
 TEST_CASE("a report includes only pictures of its own scene and scenario", "[report]") {
-  const Json& a = assessed_json();
+  const AssessmentRecord& a = room_record();
   const auto picture = [&](const std::string& scenario) {
-    const PngImage image{1,
-                         1,
-                         {1, 2, 3},
-                         {{"Scene", a["scene"]["name"]},
-                          {"Scenario", scenario},
-                          {"View", "Blick zum Ausgang, Süd"}}};
+    const PngImage image{
+        1,
+        1,
+        {1, 2, 3},
+        {{"Scene", a.scene.name}, {"Scenario", scenario}, {"View", "Blick zum Ausgang, Süd"}}};
     const auto bytes = encode_png(image, {});
     REQUIRE(bytes.ok());
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -554,18 +554,17 @@ TEST_CASE("texts in pictures are read, and damaged pictures give none", "[report
 
 TEST_CASE("for a scene without cameras a report suggests cameras that show the worst views",
           "[report]") {
-  Json a = assessed_json();
-  a["sights"][0]["verdict"] = "invisible";
+  AssessmentRecord a = room_record();
+  a.sights[0].verdict = SightVerdict::invisible;
   const std::string page = report_html(a, {}, "x", {});
   CHECK(has(page, "[[camera]]\nname = &quot;exit&quot;\neye = ["));
   CHECK(has(page, "target = [11.95, 0, 2.2]"));
 }
 
 TEST_CASE("labels of luminaires in one place do not overlap", "[report]") {
-  Json two = assessed_json();
-  Json again = two["luminaires"][0];
-  again["name"] = "its twin";
-  two["luminaires"].push_back(again);
+  AssessmentRecord two = room_record();
+  two.luminaires.push_back(two.luminaires[0]);
+  two.luminaires.back().name = "its twin";
   const TemporaryFolder folder;
   REQUIRE(write_report(fs::path(folder / ""), two, {}).ok());
   const std::string plan = content(fs::path(folder / "plans") / "installation.svg");
@@ -590,7 +589,7 @@ TEST_CASE("the legend of what people read names every verdict in every language"
     ReportOptions options;
     options.language = language;
     const TemporaryFolder folder;
-    REQUIRE(write_report(fs::path(folder / ""), assessed_json(), options).ok());
+    REQUIRE(write_report(fs::path(folder / ""), room_record(), options).ok());
     const std::string svg = content(fs::path(folder / "plans") / "legibility_1.65m.svg");
     const Texts texts(language);
     for (const char* verdict : {"legible", "undecided", "visible but not legible", "invisible",
@@ -602,19 +601,19 @@ TEST_CASE("the legend of what people read names every verdict in every language"
 }
 
 TEST_CASE("schedules have units in their headers and a place in every row", "[report]") {
-  const Json& a = assessed_json();
+  const AssessmentRecord& a = room_record();
   const Schedule schedule(a);
   const std::string lamps = luminaires_csv(a, schedule).text();
   CHECK(has(lamps, "x [m],y [m],z [m],height above floor [m]"));
   CHECK(has(lamps, "lamp,A,"));
   CHECK(has(lamps, ",6,0,2.5,2.5,"));
   CHECK(has(lamps, ",lm,0.8,0.75"));
-  CHECK(a["luminaires"][0]["emergency_flux"]["value"].get<double>() == Approx(300));
+  CHECK(a.luminaires[0].emergency_flux.value == Approx(300));
   CHECK(has(signs_csv(a, schedule).text(), "1,exit,"));
   CHECK(has(signs_csv(a, schedule).text(), ",11.95,0,2.2,2.2,-1,0,0,0.4,0.2,"));
   const std::string points = points_csv(a, schedule).text();
   CHECK(std::count(points.begin(), points.end(), '\n') ==
-        static_cast<std::ptrdiff_t>(a["plan"]["levels"][0]["points"].size()) + 1);
+        static_cast<std::ptrdiff_t>(a.plan.levels[0].points.size()) + 1);
   CHECK(has(points, "illuminance [lx]"));
   CHECK(has(materials_csv(a, schedule).text(), "6.000 0.000 2.500"));
   CHECK(has(places_csv(a).text(), "worst x [m],worst y [m],worst z [m]"));
@@ -643,7 +642,7 @@ TEST_CASE("a printed report contains its verdict, its footers and the page numbe
     ReportOptions options;
     options.pdf = true;
     options.letter = letter;
-    const auto done = write_report(root, assessed_json(), options);
+    const auto done = write_report(root, room_record(), options);
     INFO((done.ok() ? "" : done.problem().text()));
     REQUIRE(done.ok());
     REQUIRE(runs("pdfinfo -f 1 -l 1 '" + root + "report.pdf' > /dev/null"));
@@ -660,7 +659,7 @@ TEST_CASE("a printed report contains its verdict, its footers and the page numbe
     from = to + 1;
   }
   REQUIRE(pages.size() > 5);
-  CHECK(has(in_one_line(pages[0]), assessed_json()["verdict"]["first"].get<std::string>()));
+  CHECK(has(in_one_line(pages[0]), room_record().verdict.first));
   for (size_t i = 0; i < pages.size(); ++i) {
     CHECK(has(pages[i], fmt::format("Page {} of {}", i + 1, pages.size())));
     CHECK(has(pages[i], "certifies compliance with no law or code"));

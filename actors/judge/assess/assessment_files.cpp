@@ -1,0 +1,200 @@
+#include "actors/judge/assess/assessment_files.hpp"
+
+#include <cmath>
+
+#include "actors/judge/assess/bcf_issues.hpp"
+#include "actors/judge/assess/guid_results.hpp"
+#include "actors/judge/assess/guidance_words.hpp"
+#include "actors/results/formats/csv.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/regular_file.hpp"
+
+namespace luxodus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Fills a row; what is not known leaves its cell empty.
+class Row {
+ public:
+  explicit Row(CsvTable& table) : table_(table) {}
+  void end() { table_.end_row(); }
+
+  template <class... Texts>
+  Row& texts(const Texts&... words) {
+    (table_.cell(std::string_view(words)), ...);
+    return *this;
+  }
+  template <class... Numbers>
+  Row& numbers(const Numbers&... values) {
+    (number(values), ...);
+    return *this;
+  }
+  Row& number(double value) {
+    std::isfinite(value) ? table_.cell(value) : table_.empty_cell();
+    return *this;
+  }
+  Row& number(const std::optional<double>& value) { return number(value.value_or(std::nan(""))); }
+  Row& text_if(bool known, std::string_view words) {
+    known ? table_.cell(words) : table_.empty_cell();
+    return *this;
+  }
+  Row& flag(bool value) {
+    table_.cell(value);
+    return *this;
+  }
+  Row& empty(size_t cells) {
+    for (size_t i = 0; i < cells; ++i) table_.empty_cell();
+    return *this;
+  }
+
+ private:
+  CsvTable& table_;
+};
+
+CsvTable checks_csv(const AssessmentRecord& assessment) {
+  CsvTable table({"rule", "rule_set", "deviation", "edition", "clause", "status", "title",
+                  "subject", "condition", "verdict", "value", "unit", "sense", "limit", "margin",
+                  "reason"});
+  const Texts t = english();
+  for (const Check& check : assessment.checks) {
+    const Rule& rule = check.rule;
+    Row(table)
+        .texts(name_of(rule.id), rule.set, rule.deviation, rule.edition, t.clause(rule))
+        .text_if(rule.status.has_value(), rule.status ? t.remark(*rule.status) : "")
+        .texts(t.rule_title(name_of(rule.id)), t.subject(check.subject),
+               t.remarks(check.conditions), name_of(check.verdict))
+        .number(check.value)
+        .texts(check.unit, check.at_least ? "at least" : "at most")
+        .numbers(check.limit, check.margin())
+        .text_if(!check.reasons.empty(), t.remarks(check.reasons))
+        .end();
+  }
+  return table;
+}
+
+void add_seen(const SeenRecord& seen, const SightRecord& sight, Row& row) {
+  const LookRecord& look = seen.look;
+  row.numbers(look.legend_cd_m2.value, look.legend_cd_m2.error, look.ground_cd_m2.value,
+              look.ground_cd_m2.error, look.surround_cd_m2.value, look.transmission,
+              look.reading_level.value, look.reading_level.error, look.seeing_level.value,
+              seen.extinction_per_m)
+      .flag(seen.jin.legible)
+      .flag(sight.line_of_sight.seen)
+      .flag(seen.viewing_distance.within);
+}
+
+CsvTable sights_csv(const AssessmentRecord& assessment) {
+  CsvTable table({"from",
+                  "along.value",
+                  "stands_for.value",
+                  "eye_height.value",
+                  "eye.0",
+                  "eye.1",
+                  "eye.2",
+                  "sign",
+                  "verdict",
+                  "light",
+                  "other_light.verdict",
+                  "reason",
+                  "distance.value",
+                  "angle_from_normal.value",
+                  "angle_from_gaze.value",
+                  "legend.value",
+                  "legend.standard_error",
+                  "ground.value",
+                  "ground.standard_error",
+                  "surround.value",
+                  "transmission.value",
+                  "reading_level.value",
+                  "reading_level.standard_error",
+                  "seeing_level.value",
+                  "extinction.value",
+                  "jin.legible",
+                  "line_of_sight.seen",
+                  "viewing_distance.within"});
+  for (const SightRecord& sight : assessment.sights) {
+    const auto& seen = sight.seen;
+    const bool other = seen && seen->other_light;
+    Row row(table);
+    row.texts(english().subject(sight.from))
+        .numbers(sight.along_m, sight.stands_for.value, sight.eye_height_m, sight.eye.x,
+                 sight.eye.y, sight.eye.z)
+        .texts(sight.sign, name_of(sight.verdict))
+        .text_if(seen.has_value(), seen && seen->in_new_light ? "new" : "aged")
+        .text_if(other, other ? name_of(seen->other_light->verdict) : "")
+        .text_if(sight.reason.has_value(), sight.reason ? english().remark(*sight.reason) : "")
+        .numbers(sight.distance_m, sight.from_normal_deg, sight.from_gaze_deg);
+    if (seen)
+      add_seen(*seen, sight, row);
+    else
+      row.empty(11).flag(sight.line_of_sight.seen).empty(1);
+    row.end();
+  }
+  return table;
+}
+
+/// Without issues, those of an earlier assessment are removed.
+Result<void> write_issues(const fs::path& file, const std::optional<std::string>& issues) {
+  if (issues) return write_file_atomically(file, std::string_view(*issues));
+  std::error_code failed;
+  fs::remove(file, failed);
+  if (failed)
+    return system_problem(file, "cannot remove what an earlier run has left", failed.value());
+  return {};
+}
+
+}  // namespace
+
+Result<void> write_assessment(const fs::path& folder, const AssessmentRecord& assessment) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return system_problem(folder, "cannot make this folder", failed.value());
+  if (auto ok = write_json(folder / "assessment.json", assessment_json(assessment)); !ok) return ok;
+  if (auto ok = write_csv(folder / "checks.csv", checks_csv(assessment)); !ok) return ok;
+  if (auto ok = write_csv(folder / "sights.csv", sights_csv(assessment)); !ok) return ok;
+  if (auto ok = write_or_remove(folder / "by_guid.csv", results_by_guid(assessment)); !ok)
+    return ok;
+  if (auto ok = write_or_remove(folder / "property_sets.csv", property_sets_by_guid(assessment));
+      !ok)
+    return ok;
+  if (auto ok = write_issues(folder / "issues.bcf", bcf_issues(assessment)); !ok) return ok;
+  std::optional<CsvTable> guided;
+  if (assessment.over_time) guided = guidance_csv(*assessment.over_time);
+  return write_or_remove(folder / "guided.csv", guided);
+}
+
+Result<void> refuse_files_of_others(const fs::path& folder, const std::vector<std::string>& files) {
+  const auto text = read_regular_file(folder / "assessment.json", limits::assessment_bytes);
+  const Json old = text ? Json::parse(text.value()) : Json();
+  if (old.is_object() && old.value("format", Json()) == assessment_format) return {};
+  std::error_code error;
+  for (const std::string& file : files) {
+    if (!fs::exists(fs::symlink_status(folder / file, error))) continue;
+    return problem_in(folder / file,
+                      "this file is there and no assessment has written it: move it away, give "
+                      "another folder, or add --overwrite to luxodus assess to replace it");
+  }
+  return {};
+}
+
+Result<AssessmentRecord> read_assessment(const fs::path& folder) {
+  const fs::path path = folder / "assessment.json";
+  auto text = read_regular_file(path, limits::assessment_bytes);
+  if (!text)
+    return problem_in(text.problem().where.file, text.problem().what + "; luxodus assess makes it",
+                      text.problem().kind);
+  const Json json = Json::parse(text.value());
+  if (!json.is_object() || json.value("format", Json()) != assessment_format)
+    return problem_in(path, std::string("is not a \"") + assessment_format + "\": make it anew");
+  auto read = assessment_of(json);
+  if (!read)
+    return problem_in(path,
+                      read.problem().what +
+                          ": this assessment is damaged or of another version; make it anew by "
+                          "luxodus assess");
+  return read;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,178 @@
+#include "actors/judge/assess/record_assessment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actors/judge/assess/assessment_inputs.hpp"
+#include "actors/judge/assess/state_words.hpp"
+
+namespace luxodus {
+
+namespace {
+
+RulesRecord rules_of(const NamedRules& rules, const char* from) {
+  RulesRecord out{rules.id, from, rules.edition, remark(rules.asks), rules.source, {}};
+  if (rules.status) out.status = remark(*rules.status);
+  return out;
+}
+
+/// Range over all media except flames; none without smoke. Extinctions add where media overlap.
+std::optional<StateSmokeRecord> smoke_of(const AssessedState& state) {
+  if (!state.smoke) return std::nullopt;
+  StateSmokeRecord out{{0, 0, stated_nm}, state.media};
+  bool first = true;
+  for (const StatedMedium& m : state.media) {
+    if (m.kind == "flame") continue;
+    out.extinction.min = first ? m.extinction_min : std::min(out.extinction.min, m.extinction_min);
+    out.extinction.max = std::max(out.extinction.max, m.extinction_max);
+    first = false;
+  }
+  return out;
+}
+
+StateRecord state_record(const AssessedState& state) {
+  StateRecord out{.scenario = state.scenario,
+                  .operation = state.operation,
+                  .seconds_after_failure = state.seconds_after_failure,
+                  .luminaires = {state.lit.size(), state.luminaires, state.lit},
+                  .smoke = smoke_of(state),
+                  .rules = {},
+                  .deviations = {},
+                  .light = state.light,
+                  .remarks = state.remarks};
+  for (const CodeChoice& codes : state.codes) {
+    out.rules.push_back(rules_of(named(codes.set), ""));
+    for (const Deviation deviation : codes.deviations)
+      out.deviations.push_back(rules_of(named(deviation), named(codes.set).id));
+  }
+  return out;
+}
+
+LookRecord look_of(const SignLook& look, const Sight& sight) {
+  return {.legend_cd_m2 = look.legend,
+          .ground_cd_m2 = look.ground,
+          .surround_cd_m2 = look.surround,
+          .transmission = look.transmission,
+          .glare_veil_cd_m2 = look.veil_cd_m2,
+          .visible_share = look.visible_share,
+          .reading_level = sight.reading_level,
+          .seeing_level = sight.seeing_level};
+}
+
+/// None of a sign that is hidden or dark.
+std::optional<SeenRecord> seen_of(const SightRow& row) {
+  if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
+    return std::nullopt;
+  SeenRecord out{
+      .in_new_light = row.in_new_light,
+      .look = look_of(row.look, row.sight),
+      .extinction_per_m = row.sight.extinction,
+      .jin = {row.sight.jin_m, row.sight.jin_legible},
+      .viewing_distance = {row.sight.viewing.allowed_oblique_m, row.sight.viewing.within},
+      .other_light = {}};
+  if (row.other)
+    out.other_light = {!row.in_new_light, row.other->sight.verdict, row.other->sight.reason,
+                       look_of(row.other->look, row.other->sight)};
+  return out;
+}
+
+SightRecord sight_of(const SightRow& row) {
+  return {.from = row.from,
+          .stands_for = {row.stands_for, row.from.kind == SubjectKind::route ? "m" : "m2"},
+          .along_m = row.along_m,
+          .eye_height_m = row.height_m,
+          .eye = row.eye,
+          .sign = row.sign,
+          .back_face = row.back_face,
+          .verdict = row.sight.verdict,
+          .reason = row.sight.reason,
+          .distance_m = row.view.distance_m,
+          .from_normal_deg = row.view.angle_deg,
+          .from_gaze_deg = row.gaze_deg,
+          .height_arcmin = row.view.height_arcmin,
+          .detail_arcmin = row.view.detail_arcmin,
+          .line_of_sight = {row.line.distance_m, row.line.clear, row.line.extinction,
+                            row.line.visibility_m, row.line.seen},
+          .seen = seen_of(row)};
+}
+
+/// A number that is not finite is none, as in JSON.
+CheckRecord check_of(const Check& check) {
+  CheckRecord out{check};
+  for (std::optional<double>* number : {&out.value, &out.limit})
+    if (*number && !std::isfinite(**number)) number->reset();
+  return out;
+}
+
+/// Each group of checks and views once, the most frequent first.
+std::vector<NotAssessedRecord> not_assessed_of(const Assessment& assessment) {
+  std::vector<NotAssessedRecord> out;
+  const auto count = [&](NotAssessedRecord group) {
+    const auto known = std::find_if(out.begin(), out.end(), [&](const NotAssessedRecord& one) {
+      return one.rule == group.rule && one.edition == group.edition &&
+             one.undecided == group.undecided && one.why == group.why;
+    });
+    ++(known != out.end() ? *known : out.emplace_back(std::move(group))).count;
+  };
+  for (const Check& check : assessment.checks)
+    if (check.verdict == CheckVerdict::not_assessed)
+      count({check.rule.id, check.rule.edition, false, check.reasons});
+  for (const SightRow& row : assessment.sights) {
+    const bool undecided = row.sight.verdict == SightVerdict::undecided;
+    if (!undecided && row.sight.verdict != SightVerdict::not_assessed) continue;
+    Remarks reasons;
+    if (row.sight.reason) reasons.push_back(*row.sight.reason);
+    count({RuleId::none, "", undecided, std::move(reasons)});
+  }
+  if (!assessment.reality) count({RuleId::none, "", false, {remark(RemarkId::codes_alone)}});
+  std::sort(out.begin(), out.end(), [](const NotAssessedRecord& a, const NotAssessedRecord& b) {
+    if (a.count != b.count) return a.count > b.count;
+    const std::string x = a.words(english()), y = b.words(english());
+    if (x != y) return x < y;
+    const std::string why = english().remarks(a.why), other = english().remarks(b.why);
+    return why != other ? why < other : a.undecided < b.undecided;
+  });
+  return out;
+}
+
+WarningRecord warning_of(const StateWarning& one) {
+  const std::string words = one.remark ? english().remark(*one.remark) : one.words;
+  return {problem_in(one.place, words).text(), one.place.file, one.place.line, one.remark};
+}
+
+}  // namespace
+
+AssessmentRecord record_of(const SceneDescription& scene, const Assessment& assessment,
+                           const std::string& version) {
+  AssessmentRecord out;
+  out.version = version;
+  out.scene = {scene.name, scene.title, scene.file, fmt::format("{:016x}", assessment.scene_hash),
+               assessment.state.scenario};
+  out.state = state_record(assessment.state);
+  const CheckCounts counts = counts_of(assessment.checks);
+  out.counts = {count_of(counts, CheckVerdict::pass), count_of(counts, CheckVerdict::fail),
+                count_of(counts, CheckVerdict::not_assessed),
+                count_of(counts, CheckVerdict::not_verified)};
+  for (const SightRow& row : assessment.sights) ++out.sight_counts[name_of(row.sight.verdict)];
+  out.verdict = {.first = first_sentence(out, words_of(counts)),
+                 .words = words_of(counts),
+                 .fail = out.counts.fail,
+                 .not_assessed = out.counts.not_assessed,
+                 .not_verified = out.counts.not_verified,
+                 .pass = out.counts.pass};
+  out.not_assessed = not_assessed_of(assessment);
+  out.people = {scene.assessment.age_years, scene.assessment.spacing_m,
+                scene.assessment.irritant_smoke};
+  out.method = {assessment.seed, assessment.paths, assessment.seconds};
+  for (const Check& check : assessment.checks) out.checks.push_back(check_of(check));
+  for (const SightRow& row : assessment.sights) out.sights.push_back(sight_of(row));
+  out.sweep = assessment.sweep;
+  out.over_time = assessment.over_time;
+  for (const StateWarning& one : assessment.warnings) out.warnings.push_back(warning_of(one));
+  add_inputs(scene, assessment, out);
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,88 @@
+// Plans of a building as the record of an assessment holds them: floors with their walls, their
+// illuminance, and drawings below them. Plain values; any thread.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "actors/judge/record/inputs_record.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Grid points of one illuminance map.
+inline constexpr size_t record_map = 1'000'000;
+}  // namespace limits
+
+/// Both ends of a line.
+using DrawnLine = std::pair<glm::dvec2, glm::dvec2>;
+
+/// A point of calculation on a plan, with all emergency luminaires lit [lx].
+struct PlanPoint {
+  glm::dvec3 place{0};
+  double lux = 0;
+};
+
+/// An illuminance with four significant digits [lx]: a map is for drawing, and its file stays
+/// small. NaN where there is none.
+struct DrawnLux {
+  double lux = 0;
+};
+DrawnLux drawn_lux(double lux);
+
+/// Direct light of all emergency luminaires on a grid over a floor, without furniture.
+struct LightMap {
+  glm::dvec2 corner{0};  // of the first grid point
+  double spacing_m = 0;
+  int columns = 0, rows = 0;  // along x, along y
+  std::vector<DrawnLux> lux;  // row by row, columns times rows values
+  static constexpr void fields(auto&& field, auto& m) {
+    field("corner", m.corner)("spacing", m.spacing_m)("columns", m.columns)("rows", m.rows);
+    field("lux", m.lux);
+  }
+};
+
+/// One floor of the building, for its plan.
+struct PlanLevel {
+  double floor_m = 0;
+  std::vector<DrawnLine> walls, furniture;  // sections at breast height
+  std::vector<PlanPoint> points;            // of calculation on its routes and open areas
+  LightMap map;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("floor", m.floor_m)("walls", m.walls)("furniture", m.furniture)("points", m.points);
+    field("map", m.map);
+  }
+};
+
+/// A drawing under plans: lines, or a picture with its place.
+struct BackdropRecord {
+  glm::dvec2 floors{0};  // from and to which height it belongs to a floor
+  std::optional<glm::dvec2> corner, across, up;
+  std::string png;  // base64
+  std::optional<std::vector<DrawnLine>> lines;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("floors", m.floors)("corner", m.corner)("across", m.across)("up", m.up);
+    field("png", m.png, {.or_left_out = true, .max_text = limits::record_picture});
+    field("lines", m.lines);
+  }
+};
+
+struct PlanRecord {
+  std::vector<PlanLevel> levels;  // from below; at least one
+  double route_grid_m = 0, area_grid_m = 0, height_m = 0;
+  std::vector<BackdropRecord> backdrops;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("levels", m.levels);
+    field("route_grid", m.route_grid_m, {.unit = "m"})("area_grid", m.area_grid_m, {.unit = "m"});
+    field("height", m.height_m, {.unit = "m"});
+    field("backdrops", m.backdrops, {.or_left_out = true});
+  }
+};
+
+/// Drawings under plans alone, as a plan has them.
+Json backdrops_json(const std::vector<BackdropRecord>& backdrops);
+
+}  // namespace luxodus
