@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/findings.hpp"
 #include "actors/apps/cli/floors.hpp"
 #include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/judge/assess/judged_state.hpp"
 #include "actors/results/formats/json_out.hpp"
@@ -160,6 +162,7 @@ Result<ExitCode> check(const CheckOptions& options) {
   if (!scenarios) return scenarios.problem();
   std::vector<Finding> findings;
   Json all = Json::array();
+  std::optional<WaitingLine> waiting("inspecting " + options.scene);
   for (const Scenario& scenario : scenarios.value()) {
     auto scene = compile_scene(description, scenario, {options.cells});
     if (!scene) {
@@ -174,6 +177,7 @@ Result<ExitCode> check(const CheckOptions& options) {
     if (!found) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
     findings.insert(findings.begin(), found->begin(), found->end());
   }
+  waiting.reset();
   add_refusals(*description, findings);
   tell_findings(findings);
   if (options.json) {

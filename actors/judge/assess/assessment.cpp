@@ -83,8 +83,9 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   for (const Remark& one : out.state.warnings) out.warnings.push_back({scenario->place, one});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
-  out.levels = plan_levels(*scene, scenario.value());
+  progress("inspecting the scene", 0);
   if (auto ok = inspected(scene, scenario.value(), options.threads, out); !ok) return ok.problem();
+  out.levels = plan_levels(*scene, scenario.value());
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
   if (options.reality)
