@@ -80,6 +80,8 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.reality = options.reality;
   if (scenario->operation == Operation::mains)
     out.warnings.push_back({scenario->place, remark(RemarkId::mains_operation)});
+  if (scenario->operation == Operation::dark)
+    out.warnings.push_back({scenario->place, remark(RemarkId::dark_operation)});
   for (const Remark& one : out.state.warnings) out.warnings.push_back({scenario->place, one});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;

@@ -173,7 +173,8 @@ double Readout::worst_relative_error() const {
   std::optional<double> worst;
   const auto judge = [&](double error) { worst = std::max(worst.value_or(0), error); };
   for (const TargetValue& v : target_values()) {
-    if (v.value.value > 0 && std::isfinite(v.value.value)) judge(known_error(v.value));
+    // One that is out of range gets no better, however long a run takes.
+    if (v.value.value > 0) judge(std::isinf(v.value.value) ? 0 : known_error(v.value));
   }
   for (const TargetPercentile& many : target_percentiles()) {
     if (const auto error = percentile_error(many.fluxes)) judge(*error);
