@@ -53,7 +53,7 @@ Seen seen_with(const std::string& flux_lm) {
   options.particles = thrift << 14;
   Run run(scene_from_toml(room_with(flux_lm)), options);
   const CompiledScene& scene = run.scene();
-  const Readout readout(scene, run.totals());
+  const Readout readout(scene, run.local().totals());
   CHECK(readout.check_range().ok());
   const auto of = [&](EyeQuantity quantity) {
     return readout.value(scene.blocks.views, scene.eye_targets.at(0).first_bin,
@@ -121,7 +121,7 @@ target = [3.95, 2, 2]
   RunOptions options;
   options.particles = thrift << 14;
   Run run(scene_from_toml(text), options);
-  const Readout readout(run.scene(), run.totals());
+  const Readout readout(run.scene(), run.local().totals());
   const auto checked = readout.check_range();
   REQUIRE_FALSE(checked.ok());
   CHECK(checked.problem().what.find("sign \"spot\" from \"eye\"") != std::string::npos);
