@@ -64,6 +64,13 @@ Result<RegularFile> open_regular_file(const std::filesystem::path& path) {
   return RegularFile{std::move(file), static_cast<uint64_t>(about.st_size)};
 }
 
+Result<uint64_t> size_of_regular_file(const std::filesystem::path& path) {
+  const auto file = open_regular_file(path);
+  if (file) return file->bytes;
+  if (file.problem().kind != ProblemKind::not_found) return file.problem();
+  return problem_in(path, "there is no such file", ProblemKind::not_found);
+}
+
 Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t max_bytes) {
   return read_all<std::string>(path, max_bytes);
 }

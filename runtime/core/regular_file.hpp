@@ -22,6 +22,10 @@ struct RegularFile {
 /// Opens a file for reading. Errors: not there, not readable, a folder, pipe, socket or device.
 Result<RegularFile> open_regular_file(const std::filesystem::path& path);
 
+/// The size of a file that can be read, for a reader that opens it by its name [bytes]. Errors: as
+/// open_regular_file; "there is no such file" only where that is so.
+Result<uint64_t> size_of_regular_file(const std::filesystem::path& path);
+
 /// All bytes of a file. Errors: as open_regular_file; longer than `max_bytes`; a failed read.
 Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t max_bytes);
 /// All bytes of a binary file. Errors: those of read_regular_file.

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <set>
@@ -66,6 +67,8 @@ struct ZmqTransport::LaneSockets {
   zmq::message_t frame;  // the frame that the last Arrival points into
   /// Endpoints, bound or connected, at which a handshake has succeeded.
   std::set<std::string> met;
+  /// Endpoints that we have connected to, and at which no handshake has ended yet.
+  std::set<std::string> greeted;
 };
 
 ZmqTransport::ZmqTransport(ZmqContext& context, const ZmqConfig& config, const Clock& clock)
@@ -104,8 +107,8 @@ void ZmqTransport::set_options(LaneSockets& lane) {
 
   // Sockets of one context share the namespace of inproc endpoints.
   const std::string told = "inproc://monitor-" + routing_id(config_.self) + "-" + lane.name;
-  constexpr int events = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED |
-                         ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
+  constexpr int events = ZMQ_EVENT_CONNECTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
+                         ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
                          ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
   if (zmq_socket_monitor(s.handle(), told.c_str(), events) != 0) throw zmq::error_t();
   lane.monitor.set(zmq::sockopt::linger, 0);
@@ -306,19 +309,32 @@ void ZmqTransport::take_event(Lane lane) {
   while (sockets.monitor.recv(event, zmq::recv_flags::dontwait)) {
     if (!event.more() || !sockets.monitor.recv(where, zmq::recv_flags::dontwait)) return;
     uint16_t kind = 0;
-    if (event.size() < sizeof kind) continue;
+    uint32_t value = 0;
+    if (event.size() < sizeof kind + sizeof value) continue;
     std::memcpy(&kind, event.data(), sizeof kind);
+    std::memcpy(&value, static_cast<const char*>(event.data()) + sizeof kind, sizeof value);
     const auto say = [&](const char* what, const char* why) {
       log_warning("zmq={} node={} lane={} endpoint={} text=\"{}\"", what, config_.self.value,
                   sockets.name, where.to_string_view(), why);
     };
+    const auto say_no_node = [&](const char* why) {
+      if (counters_.not_a_node++ == 0) say("not_a_node", why);
+    };
+    const bool greeted =
+        kind != ZMQ_EVENT_CONNECTED && sockets.greeted.erase(where.to_string()) > 0;
     switch (kind) {
+      case ZMQ_EVENT_CONNECTED:
+        sockets.greeted.insert(where.to_string());
+        break;
       case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
         ++counters_.connected;
         sockets.met.insert(where.to_string());
         break;
       case ZMQ_EVENT_DISCONNECTED:
         ++counters_.disconnected;
+        // ZeroMQ gives up without a word what answers in another protocol.
+        if (greeted && sockets.met.count(where.to_string()) == 0)
+          say_no_node("what listens there speaks another protocol: another program has this port");
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
         if (counters_.refused_us++ == 0)
@@ -333,12 +349,20 @@ void ZmqTransport::take_event(Lane lane) {
           ++counters_.broken_off;
           break;
         }
+        // A node has answered long before the time of the handshake is over.
+        if (greeted && value == EAGAIN) {
+          say_no_node(
+              "what listens there does not answer as a node: another program has this port, or "
+              "the node hangs");
+          break;
+        }
         [[fallthrough]];
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         if (counters_.handshake_failed++ == 0)
           say("handshake_failed",
               config_.keys ? "the neighbour's public key is not the one listed here, or only one "
-                             "end has keys: give all nodes one folder of public keys"
+                             "end has keys (give all nodes one folder of public keys), or what "
+                             "listens there is no node of a run"
                            : "what listens there broke off: it has ended, or has keys, or is no "
                              "node of a run");
         break;

@@ -43,7 +43,8 @@ struct ZmqCounters {
   uint64_t connected = 0;
   uint64_t disconnected = 0;
   uint64_t refused_us = 0;        // the other end does not list our key
-  uint64_t handshake_failed = 0;  // not our protocol, or a wrong server key
+  uint64_t handshake_failed = 0;  // broken off by the other end, such as for a wrong server key
+  uint64_t not_a_node = 0;        // what we connected to does not speak our protocol, or is silent
   uint64_t broken_off = 0;        // by a leaving end, after others have succeeded
   uint64_t strangers = 0;         // frames of senders that are no nodes, or not who they claim
 };

@@ -350,6 +350,9 @@ std::optional<std::filesystem::path> TableReader::existing(const Value& value,
   std::string what;
   if (text.empty() || text.find('\0') != std::string::npos)
     what = "an empty text names no file";
+  else if (status.type() == fs::file_type::none)
+    what =
+        fmt::format("the file '{}' cannot be read: {} ({})", text, error.message(), full.string());
   else if (!fs::exists(status))
     what = fmt::format("there is no file '{}' (looked for {})", text, full.string());
   else if (!fs::is_regular_file(status))

@@ -88,6 +88,7 @@ constexpr std::array kinds = std::to_array<RemarkKind>({
     {RemarkId::circuits_raise, "circuits_raise", "luminaires"},
     {RemarkId::circuits_switch_off_signs, "circuits_switch_off_signs", "signs"},
     {RemarkId::thinned_smoke, "thinned_smoke", "share of the stated extinction; medium"},
+    {RemarkId::absent_smoke, "absent_smoke", "medium"},
     {RemarkId::unmeasured_luminaires, "unmeasured_luminaires", "luminaires"},
     {RemarkId::later_than_rated, "later_than_rated", "time [s]; rated duration [h]"},
     {RemarkId::onset_assumed, "onset_assumed", "luminaires; time [s]"},

@@ -98,6 +98,7 @@ enum class RemarkId {
   circuits_raise,
   circuits_switch_off_signs,
   thinned_smoke,
+  absent_smoke,
   unmeasured_luminaires,
   later_than_rated,
   onset_assumed,

@@ -72,6 +72,25 @@ TEST_CASE("check gives its findings as JSON, too", "[program]") {
   CHECK(finding["what"].get<std::string>().find("millimetres") != std::string::npos);
 }
 
+TEST_CASE("check looks at the last state of a scene that changes in time, too", "[program]") {
+  const TemporaryFolder folder;
+  const auto checked = [&](const std::string& row) {
+    return run_luxodus(folder,
+                       "check " + written(folder, good +
+                                                      "[time]\nto = 600\nstep = 300\n[[medium]]\n"
+                                                      "name = \"smoke\"\nkind = \"homogeneous\"\n"
+                                                      "albedo = 0.3\nextinction = [[0, 0.1], " +
+                                                      row + "]\n"));
+  };
+  const auto ends = checked("[100, 1]");
+  INFO(ends.err);
+  CHECK(ends.code == 2);
+  CHECK(ends.err.find("'extinction' is known from 0 to 100 s, and the time is 600 s") !=
+        std::string::npos);
+  CHECK(ends.err.find("the last state of [time]") != std::string::npos);
+  CHECK(checked("[600, 1]").code == 0);
+}
+
 TEST_CASE("run and pack refuse a scene with an error before they write anything", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = written(folder, with_lamp_far_away());

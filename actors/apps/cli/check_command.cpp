@@ -1,13 +1,16 @@
 // luxodus check: reads everything that a scene names, compiles it, and reports what was found.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/findings.hpp"
 #include "actors/apps/cli/floors.hpp"
 #include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/judge/assess/judged_state.hpp"
 #include "actors/results/formats/json_out.hpp"
@@ -152,6 +155,29 @@ void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
   if (auto said = irritation_is_said(scene, scenario.value()); !said) add(said.problem());
 }
 
+/// Adds what is wrong with the last state of a scene that changes in time: tables that end before
+/// it, supplies that are exhausted by then. `first`: its first state, whose findings stand already.
+void add_last_state(const CheckOptions& options, const SceneDescription& first,
+                    std::vector<Finding>& out) {
+  if (!first.time || !options.at.empty() || first.packed || first.at_s == first.time->to_s) return;
+  const double last_s = first.time->to_s;
+  const auto add = [&](Finding finding) {
+    for (const Finding& known : out)
+      if (known.text() == finding.text()) return;
+    finding.problem.what += fmt::format(" (at {:g} s, the last state of [time])", last_s);
+    out.push_back(std::move(finding));
+  };
+  const OpenedScene last = open_scene(options.scene, last_s);
+  for (const Problem& problem : last.problems.list()) add({Severity::error, "file", problem});
+  if (!last.scene) return;
+  const auto scenarios = chosen_scenarios(*last.scene, options.scenario);
+  if (!scenarios) return add({Severity::error, "scenario", scenarios.problem()});
+  const auto found = inspect(last.scene, scenarios.value(), default_threads());
+  if (!found) return add({Severity::error, "scene", found.problem()});
+  for (const Finding& finding : found.value())
+    if (finding.severity == Severity::error || finding.kind == "scenario") add(finding);
+}
+
 Result<ExitCode> check(const CheckOptions& options) {
   const auto [description, told] =
       load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
@@ -160,6 +186,7 @@ Result<ExitCode> check(const CheckOptions& options) {
   if (!scenarios) return scenarios.problem();
   std::vector<Finding> findings;
   Json all = Json::array();
+  std::optional<WaitingLine> waiting("inspecting " + options.scene);
   for (const Scenario& scenario : scenarios.value()) {
     auto scene = compile_scene(description, scenario, {options.cells});
     if (!scene) {
@@ -173,7 +200,11 @@ Result<ExitCode> check(const CheckOptions& options) {
     auto found = inspect(description, scenarios.value(), default_threads());
     if (!found) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
     findings.insert(findings.begin(), found->begin(), found->end());
+    add_last_state(options, *description, findings);
+    std::stable_sort(findings.begin(), findings.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   }
+  waiting.reset();
   add_refusals(*description, findings);
   tell_findings(findings);
   if (options.json) {

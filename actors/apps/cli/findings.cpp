@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/progress_line.hpp"
 
 namespace luxodus::cli {
 
@@ -42,7 +43,10 @@ Json findings_json(const std::vector<Finding>& findings) {
 std::optional<ProblemKind> refused_by_inspection(
     const std::shared_ptr<const SceneDescription>& scene, const std::vector<Scenario>& scenarios,
     int threads) {
-  const auto found = inspect(scene, scenarios, threads);
+  const auto found = [&] {
+    const WaitingLine waiting("inspecting " + scene->file);
+    return inspect(scene, scenarios, threads);
+  }();
   if (!found) {
     tell(found.problem());
     return found.problem().kind;

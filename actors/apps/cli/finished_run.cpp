@@ -35,8 +35,10 @@ Result<Json> read_json_file(const fs::path& file) {
 
 Result<FinishedRun> read_finished_run(const fs::path& folder) {
   const fs::path file = folder / "result.json";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  std::error_code failed, ignored;
+  const bool there = fs::exists(file, failed);
+  if (failed) return system_problem(file, "this file cannot be read", failed.value());
+  if (!there) {
     const bool assessed = fs::exists(folder / "assessment.json", ignored);
     return problem_in(
         folder, assessed ? "this is the folder of an assessment, not of a run: give the folder "

@@ -1,4 +1,6 @@
 // luxodus run: traces a scene, and writes all results.
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 
@@ -258,6 +260,11 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
                 short_number(static_cast<double>(run.particles())));
     return Traced{StopReason::interrupted, {}};
   }
+  if (reason.value() == StopReason::time && run.particles() == 0)
+    return problem(
+        fmt::format("the time was up before one batch of {} particles was traced: give "
+                    "more time (--time), or smaller batches (batch_particles of [run])",
+                    run.scene().batch_particles));
   if (options.nodes == 0) {
     if (auto ok = output.keep_flux(run, reason.value()); !ok) return ok.problem();
     if (auto ok = output.write_results(run, reason.value()); !ok) return ok.problem();

@@ -85,7 +85,12 @@ std::string NodeTransport::meeting_trouble(const Network& network) const {
   if (sockets_.counters().refused_us > 0)
     text += "; a neighbour turned this node away, since it does not list this node's key";
   if (sockets_.counters().handshake_failed > 0)
-    text += "; a neighbour has another key than the one listed here";
+    text +=
+        "; a neighbour broke off: it has another key than the one listed here, or is no node of a "
+        "run";
+  if (sockets_.counters().not_a_node > 0)
+    text +=
+        "; what listens at a neighbour's port does not answer as a node: another program has it";
   for (const NodeId neighbour : network.neighbours()) {
     const std::string refusal = network.refusal_of(neighbour);
     if (!refusal.empty()) text += "; " + refusal;

@@ -80,11 +80,14 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.reality = options.reality;
   if (scenario->operation == Operation::mains)
     out.warnings.push_back({scenario->place, remark(RemarkId::mains_operation)});
+  if (scenario->operation == Operation::dark)
+    out.warnings.push_back({scenario->place, remark(RemarkId::dark_operation)});
   for (const Remark& one : out.state.warnings) out.warnings.push_back({scenario->place, one});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
-  out.levels = plan_levels(*scene, scenario.value());
+  progress("inspecting the scene", 0);
   if (auto ok = inspected(scene, scenario.value(), options.threads, out); !ok) return ok.problem();
+  out.levels = plan_levels(*scene, scenario.value());
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
   if (options.reality)

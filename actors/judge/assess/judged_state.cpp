@@ -229,12 +229,15 @@ std::optional<Remark> dark_signs(const SceneDescription& scene, const Scenario& 
                    : remark(RemarkId::signs_unlit, first, more);
 }
 
-/// Remarks on smoke that this state thins, and on luminaires without a measured web.
+/// Remarks on smoke that this state thins or lacks, and on luminaires without a measured web.
 void add_thinned(const SceneDescription& scene, const Scenario& scenario, Remarks& remarks) {
   for (const Medium& m : scene.media) {
     const double factor = extinction_factor(scenario, m.name);
-    if (is_flame(m) || !(factor > 0 && factor < 1)) continue;
-    remarks.push_back(remark(RemarkId::thinned_smoke, factor, m.name));
+    if (is_flame(m) || !(factor < 1)) continue;
+    if (factor > 0)
+      remarks.push_back(remark(RemarkId::thinned_smoke, factor, m.name));
+    else if (has_smoke(scene, scenario))  // else the state says that it is in clear air
+      remarks.push_back(remark(RemarkId::absent_smoke, m.name));
   }
   const auto ideal = std::count_if(
       scene.emitters.begin(), scene.emitters.end(),

@@ -380,6 +380,7 @@ Result<void> SightsInLights::trace(int round, const std::vector<bool>& asked,
   if (reason.value() == StopReason::interrupted) return problem("interrupted");
   paths_ += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
             static_cast<int64_t>(3 * run.scene().eye_targets.size());
+  if (auto ok = Readout(run.scene(), run.totals()).check_range(); !ok) return ok;
   judge(run.scene(), run.totals(), views);
   progress(what, 1);
   return {};

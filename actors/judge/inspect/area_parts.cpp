@@ -5,7 +5,7 @@
 #include <map>
 
 #include "actors/judge/inspect/doorway.hpp"
-#include "scenes/emergency/way.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 
 namespace luxodus {
 
@@ -40,7 +40,7 @@ PartGrid grid_over(const AssessedArea& area, double above_m) {
     high = glm::max(high, p);
   }
   const glm::dvec2 size = high - low;
-  const double step = std::max(part_step_m, std::sqrt(size.x * size.y / max_part_places));
+  const double step = spacing_within(area, part_step_m, max_part_places);
   PartGrid grid;
   grid.places = within(area, part_border_m, step);
   // Neighbours are about one step apart, all others of a row or a column two or more.

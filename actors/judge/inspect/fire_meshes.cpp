@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "actors/judge/inspect/site.hpp"
-#include "scenes/emergency/way.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 
 namespace luxodus {
@@ -37,10 +37,10 @@ std::vector<Tried> eyes_tried(const SceneDescription& scene) {
       out.push_back({of, place, p + glm::dvec3(0, 0, height)});
   };
   for (const EscapeRoute& route : scene.routes)
-    for (const glm::dvec3& p : along(route, 0, fire_places_m))
+    for (const glm::dvec3& p : places_along(route, fire_places_m))
       add_eyes("route \"" + route.name + "\"", route.place, p);
   for (const AssessedArea& area : scene.open_areas)
-    for (const glm::dvec3& p : within(area, 0.5, fire_places_m))
+    for (const glm::dvec3& p : places_within(area, 0.5, fire_places_m))
       add_eyes("open area \"" + area.name + "\"", area.place, p);
   for (const Observer& o : scene.observers)
     out.push_back({"observer \"" + o.name + "\"", o.place, o.eye});

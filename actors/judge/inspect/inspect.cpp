@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "actors/judge/inspect/site.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 
 namespace luxodus {
 
@@ -20,10 +21,8 @@ class Collected {
  public:
   void add(Findings found, const Names& scenarios) {
     for (Finding& finding : found) {
-      const auto at = std::find_if(list_.begin(), list_.end(), [&](const Entry& e) {
-        return e.finding.severity == finding.severity && e.finding.text() == finding.text();
-      });
-      Entry& entry = at != list_.end() ? *at : list_.emplace_back(Entry{std::move(finding), {}});
+      const auto [at, fresh] = known_.try_emplace({finding.severity, finding.text()}, list_.size());
+      Entry& entry = fresh ? list_.emplace_back(Entry{std::move(finding), {}}) : list_[at->second];
       entry.scenarios.insert(entry.scenarios.end(), scenarios.begin(), scenarios.end());
     }
   }
@@ -64,6 +63,7 @@ class Collected {
   }
 
   std::vector<Entry> list_;
+  std::map<std::pair<Severity, std::string>, size_t> known_;  // places in the list
 };
 
 Names names_of(const std::vector<const Scenario*>& scenarios) {
@@ -199,6 +199,8 @@ void inspect_enclosure(const SceneDescription& scene, const std::vector<const Sc
   for (const auto& state : states) {
     const auto shares = escape_shares(scene, *state.front(), misplaced, threads);
     if (!shares) continue;
+    if (const auto white = white_rooms(scene, *state.front(), *shares))
+      out.add({*white}, names_of(state));
     const double all = std::accumulate(shares->by_side.begin(), shares->by_side.end(), 0.0);
     auto finding = open_rooms(scene, *shares);
     if (!finding || all <= most) continue;
@@ -256,6 +258,7 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   inspect_smoke_numbers(*scene, of_scene);
   inspect_smoke_settings(*scene, scenarios, of_scene);
   inspect_states(*scene, scenarios, of_scene);
+  inspect_way_sizes(*scene, of_scene);
   out.add(std::move(of_scene), names_of(all));
   Misplaced misplaced;
   for (const auto& state : alike(all, doors_of)) {

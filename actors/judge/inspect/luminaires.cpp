@@ -6,9 +6,10 @@
 #include <map>
 #include <numeric>
 
+#include "actors/judge/inspect/same_place.hpp"
 #include "actors/judge/inspect/site.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 #include "scenes/emergency/rules.hpp"
-#include "scenes/emergency/way.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
 #include "scenes/light/optics/offset_ray.hpp"
 #include "scenes/light/transport/emitted_light.hpp"
@@ -198,26 +199,25 @@ bool same_light(const Emitter& a, const Emitter& b) {
 }
 
 void find_double_emitters(const SceneDescription& scene, Findings& out) {
-  std::vector<size_t> order;
-  for (size_t i = 0; i < scene.emitters.size(); ++i)
-    if (scene.emitters[i].shape != EmitterShape::mesh) order.push_back(i);
-  const auto x = [&](size_t i) { return scene.emitters[i].frame.origin.x; };
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return x(a) < x(b); });
-  for (size_t k = 0; k < order.size(); ++k)
-    for (size_t l = k + 1; l < order.size() && x(order[l]) - x(order[k]) < one_place_m; ++l) {
-      const Emitter& first = scene.emitters[std::min(order[k], order[l])];
-      const Emitter& second = scene.emitters[std::max(order[k], order[l])];
-      if (glm::length(first.frame.origin - second.frame.origin) >= one_place_m ||
-          !same_light(first, second))
-        continue;
-      out.push_back(
-          {Severity::warning,
-           "same place",
-           {second.place, fmt::format("{} stands where {} (line {}) does, at {}: its "
-                                      "light counts twice; remove one of them",
-                                      emitter_text(second), emitter_text(first), first.place.line,
-                                      place_text(second.frame.origin))}});
-    }
+  const auto& emitters = scene.emitters;
+  const auto place = [&](size_t i) {
+    return emitters[i].shape == EmitterShape::mesh ? std::nullopt
+                                                   : std::optional(emitters[i].frame.origin);
+  };
+  const auto alike = [&](size_t a, size_t b) { return same_light(emitters[a], emitters[b]); };
+  const auto firsts = first_in_same_place(emitters.size(), one_place_m, place, alike);
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    if (!firsts[i]) continue;
+    const Emitter &first = emitters[*firsts[i]], &second = emitters[i];
+    out.push_back(
+        {Severity::warning,
+         "same place",
+         {second.place,
+          fmt::format("{} stands where {} (line {}) does, at {}: its light counts twice; remove "
+                      "one of them",
+                      emitter_text(second), emitter_text(first), first.place.line,
+                      place_text(second.frame.origin))}});
+  }
 }
 
 // ---- places that are judged ---------------------------------------------------------------------
@@ -243,9 +243,10 @@ std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
   const auto add = [&](const std::vector<glm::dvec3>& more) {
     all.insert(all.end(), more.begin(), more.end());
   };
-  for (const EscapeRoute& route : scene.routes) add(within(route, route.width_m / 4, grid_m));
-  for (const AssessedArea& area : scene.open_areas) add(within(area, 0.5, grid_m));
-  for (const AssessedArea& area : scene.task_areas) add(within(area, 0, grid_m));
+  for (const EscapeRoute& route : scene.routes)
+    add(places_within(route, route.width_m / 4, grid_m));
+  for (const AssessedArea& area : scene.open_areas) add(places_within(area, 0.5, grid_m));
+  for (const AssessedArea& area : scene.task_areas) add(places_within(area, 0, grid_m));
   for (glm::dvec3& p : all) p.z += above_floor_m;
   if (all.empty()) return all;
   std::vector<glm::dvec3> out;
@@ -353,10 +354,10 @@ void tell_dark_ways(const Site& site, const std::vector<uint32_t>& luminaires, F
   };
   for (const EscapeRoute& route : site.scene.routes)
     tell("route \"" + route.name + "\"", route.place,
-         dark_places(site, luminaires, within(route, route.width_m / 4, grid_m)));
+         dark_places(site, luminaires, places_within(route, route.width_m / 4, grid_m)));
   for (const AssessedArea& area : site.scene.open_areas)
     tell("open area \"" + area.name + "\"", area.place,
-         dark_places(site, luminaires, within(area, 0.5, grid_m)));
+         dark_places(site, luminaires, places_within(area, 0.5, grid_m)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "actors/judge/inspect/same_place.hpp"
 #include "actors/judge/inspect/site.hpp"
 
 namespace luxodus {
@@ -49,9 +50,11 @@ glm::dvec3 front_of(const Object& object) {
                                    mesh.positions[t.z] - mesh.positions[t.x]));
 }
 
+/// Corners of two things in one space are at most so far apart, along each axis [m].
+constexpr double one_space_m = 1e-3;
+
 /// Whether two things fill the same space, seen from one side.
 bool coincide(const Whole& a, const Whole& b) {
-  constexpr double one_space_m = 1e-3;
   const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
     return glm::all(glm::lessThan(glm::abs(p - q), glm::dvec3(one_space_m)));
   };
@@ -86,24 +89,22 @@ void inspect_sizes(const SceneDescription& scene, Findings& out) {
 }
 
 void inspect_doubled_objects(const SceneDescription& scene, Findings& out) {
-  constexpr double window_m = 1e-3;
-  std::vector<Whole> wholes = wholes_of(scene);
-  const auto empty = [](const Whole& w) { return w.bounds.empty(); };
-  wholes.erase(std::remove_if(wholes.begin(), wholes.end(), empty), wholes.end());
-  const auto x = [](const Whole& w) { return w.bounds.low.x; };
-  std::stable_sort(wholes.begin(), wholes.end(),
-                   [&](const Whole& a, const Whole& b) { return x(a) < x(b); });
-  for (size_t i = 0; i < wholes.size(); ++i)
-    for (size_t k = i + 1; k < wholes.size() && x(wholes[k]) - x(wholes[i]) < window_m; ++k) {
-      if (!coincide(wholes[i], wholes[k])) continue;
-      const Object &first = *wholes[i].first, &second = *wholes[k].first;
-      out.push_back({Severity::warning,
-                     "same place",
-                     {second.place,
-                      fmt::format("\"{}\" fills the very space of \"{}\" (line {}): which of the "
-                                  "two is met is left to rounding; remove one of them",
-                                  whole_name(second), whole_name(first), first.place.line)}});
-    }
+  const std::vector<Whole> wholes = wholes_of(scene);
+  const auto place = [&](size_t i) {
+    return wholes[i].bounds.empty() ? std::nullopt : std::optional(wholes[i].bounds.low);
+  };
+  const auto alike = [&](size_t a, size_t b) { return coincide(wholes[a], wholes[b]); };
+  const auto firsts = first_in_same_place(wholes.size(), 2 * one_space_m, place, alike);
+  for (size_t i = 0; i < wholes.size(); ++i) {
+    if (!firsts[i]) continue;
+    const Object &first = *wholes[*firsts[i]].first, &second = *wholes[i].first;
+    out.push_back(
+        {Severity::warning,
+         "same place",
+         {second.place, fmt::format("\"{}\" fills the very space of \"{}\" (line {}): which of the "
+                                    "two is met is left to rounding; remove one of them",
+                                    whole_name(second), whole_name(first), first.place.line)}});
+  }
 }
 
 void inspect_turned_rooms(const Site& site, Findings& out) {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "actors/judge/inspect/site.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/emergency/way.hpp"
 
 namespace luxodus {
 
@@ -125,7 +125,7 @@ int arrow_of(const Sign& sign) {
 /// Direction in which a route continues from its point nearest to the sign; none if it ends there,
 /// or if nobody on it reads the sign.
 std::optional<glm::dvec3> way_on(const EscapeRoute& route, const Sign& sign) {
-  const auto steps = walkers(route, 0.5);
+  const auto steps = steps_along(route, 0.5);
   if (steps.empty()) return std::nullopt;
   const auto distance = [&](const Walker& w) {
     return glm::length(glm::dvec2(w.foot - sign.frame.origin));

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "actors/judge/inspect/doorway.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/emergency/way.hpp"
 
 namespace luxodus {
 
@@ -66,7 +66,7 @@ bool has_named_exit(const SceneDescription& scene, const glm::dvec3& foot) {
 }
 
 bool has_sign(const SceneDescription& scene, const EscapeRoute& route, const glm::dvec3& foot) {
-  const auto steps = walkers(route, 1);
+  const auto steps = steps_along(route, 1);
   return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
     const glm::dvec3 to = sign.frame.origin - foot;
     if (glm::length(glm::dvec2(to)) > sign_within_m || to.z < 0 || to.z > highest_sign_m)
@@ -101,7 +101,7 @@ bool is_led_on(const SceneDescription& scene, const EscapeRoute& route) {
   const glm::dvec3 ahead = glm::normalize(end - route.path[route.path.size() - 2]);
   return std::any_of(scene.routes.begin(), scene.routes.end(), [&](const EscapeRoute& other) {
     if (&other == &route) return false;
-    const auto steps = walkers(other, stretch_step_m);
+    const auto steps = steps_along(other, stretch_step_m);
     return std::any_of(steps.begin(), steps.end(), [&](const Walker& w) {
       return is_near(w.foot, end, other.width_m / 2 + joins_m) &&
              glm::dot(w.ahead, ahead) > opposite;
@@ -138,7 +138,7 @@ std::optional<Finding> ends_nowhere(const Site& site, const GeometryAccess& acce
 
 /// Reports two stretches of one line in opposite directions.
 std::optional<Finding> turns_back(const EscapeRoute& route) {
-  const auto steps = walkers(route, stretch_step_m);
+  const auto steps = steps_along(route, stretch_step_m);
   for (size_t i = 0; i < steps.size(); ++i)
     for (size_t k = 0; k < i; ++k) {
       if (glm::length(steps[i].foot - steps[k].foot) > one_line_m ||
@@ -168,7 +168,7 @@ bool runs_along(const std::vector<Walker>& one, const std::vector<Walker>& other
 void find_double_routes(const SceneDescription& scene, Findings& out) {
   const auto& routes = scene.routes;
   std::vector<std::vector<Walker>> steps;
-  for (const EscapeRoute& route : routes) steps.push_back(walkers(route, stretch_step_m));
+  for (const EscapeRoute& route : routes) steps.push_back(steps_along(route, stretch_step_m));
   for (size_t i = 0; i < routes.size(); ++i)
     for (size_t k = 0; k < i; ++k) {
       if (!runs_along(steps[i], steps[k]) || !runs_along(steps[k], steps[i])) continue;

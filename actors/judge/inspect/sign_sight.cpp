@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "actors/judge/inspect/doorway.hpp"
-#include "scenes/emergency/way.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 
 namespace luxodus {
 
@@ -54,7 +54,7 @@ EdgeView view_from_route(const Site& site, const GeometryAccess& access, const S
                          const EscapeRoute& route) {
   size_t readers = 0, backs = 0;
   double least = furthest_reader_m;
-  for (const Walker& w : walkers(route, reader_step_m)) {
+  for (const Walker& w : steps_along(route, reader_step_m)) {
     const glm::dvec3 eye = w.foot + glm::dvec3(0, 0, reader_eye_m);
     const glm::dvec3 to = sign.frame.origin - eye;
     const double distance = glm::length(to);
@@ -74,7 +74,7 @@ EdgeView view_from_route(const Site& site, const GeometryAccess& access, const S
 
 bool serves_area(const Site& site, const GeometryAccess& access, const Sign& sign) {
   for (const AssessedArea& area : site.scene.open_areas)
-    for (const glm::dvec3& place : within(area, 0.5, 1)) {
+    for (const glm::dvec3& place : places_within(area, 0.5, 1)) {
       const glm::dvec3 eye = place + glm::dvec3(0, 0, reader_eye_m);
       if (glm::length(eye - sign.frame.origin) < furthest_reader_m &&
           turned_to(sign, eye) > edge_cosine && sees_place_of(site, access, sign, eye))

@@ -2,6 +2,7 @@
 // emitted as by a matt surface.
 #include <algorithm>
 
+#include "actors/judge/inspect/same_place.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 #include "scenes/light/optics/offset_ray.hpp"
@@ -130,17 +131,19 @@ std::optional<Finding> wrong_sign(const Site& site, const GeometryAccess& access
 
 void find_double_signs(const SceneDescription& scene, Findings& out) {
   const auto& signs = scene.signs;
-  for (size_t i = 0; i < signs.size(); ++i)
-    for (size_t k = 0; k < i; ++k) {
-      const Frame &a = signs[k].frame, &b = signs[i].frame;
-      if (glm::length(a.origin - b.origin) >= one_sign_place_m ||
-          glm::dot(a.axes[2], b.axes[2]) < one_sign_direction)
-        continue;
-      out.push_back(of_sign(Severity::warning, "same place", signs[i],
-                            fmt::format("hangs where sign \"{}\" (line {}) does, at {}: remove "
-                                        "one of them",
-                                        signs[k].name, signs[k].place.line, place_text(b.origin))));
-    }
+  const auto place = [&](size_t i) { return std::optional(signs[i].frame.origin); };
+  const auto alike = [&](size_t a, size_t b) {
+    return glm::dot(signs[a].frame.axes[2], signs[b].frame.axes[2]) >= one_sign_direction;
+  };
+  const auto firsts = first_in_same_place(signs.size(), one_sign_place_m, place, alike);
+  for (size_t i = 0; i < signs.size(); ++i) {
+    if (!firsts[i]) continue;
+    const Sign& first = signs[*firsts[i]];
+    out.push_back(
+        of_sign(Severity::warning, "same place", signs[i],
+                fmt::format("hangs where sign \"{}\" (line {}) does, at {}: remove one of them",
+                            first.name, first.place.line, place_text(signs[i].frame.origin))));
+  }
 }
 
 }  // namespace

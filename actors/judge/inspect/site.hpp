@@ -144,11 +144,16 @@ struct Misplaced {
 /// panes and from misplaced emitters; none without light.
 struct EscapeShares {
   std::array<double, 6> by_side{};
-  double standard_error = 0;  // of their sum
+  double standard_error = 0;     // of their sum
+  double rays_per_particle = 0;  // until a particle is absorbed or escapes; infinite if none was
 };
 std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const Scenario& scenario,
                                           const Misplaced& misplaced, int threads);
 /// The warning, if more than 1 % leaves by sides that are not declared open.
 std::optional<Finding> open_rooms(const SceneDescription& scene, const EscapeShares& shares);
+/// An error if no light is ever absorbed or escapes, also with the smoke of `scenario`; a warning
+/// if hardly any is.
+std::optional<Finding> white_rooms(const SceneDescription& scene, const Scenario& scenario,
+                                   const EscapeShares& shares);
 
 }  // namespace luxodus

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "actors/judge/inspect/site.hpp"
-#include "scenes/emergency/way.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 
 namespace luxodus {
@@ -36,10 +36,10 @@ struct JudgedPlace {
 std::vector<JudgedPlace> judged_feet(const SceneDescription& scene) {
   std::vector<JudgedPlace> all, out;
   for (const EscapeRoute& route : scene.routes)
-    for (const glm::dvec3& p : along(route, 0, column_spacing_m))
+    for (const glm::dvec3& p : places_along(route, column_spacing_m))
       all.push_back({"route \"" + route.name + "\"", route.place, p});
   for (const AssessedArea& area : scene.open_areas)
-    for (const glm::dvec3& p : within(area, 0.5, column_spacing_m))
+    for (const glm::dvec3& p : places_within(area, 0.5, column_spacing_m))
       all.push_back({"open area \"" + area.name + "\"", area.place, p});
   const size_t step = all.size() / max_columns + 1;
   for (size_t i = 0; i < all.size(); i += step) out.push_back(all[i]);

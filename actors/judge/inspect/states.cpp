@@ -127,17 +127,40 @@ double largest_extinction(const Medium& m) {
   return most;
 }
 
+/// The change of a variant that has scaled a medium in a state; line 0 if there is none.
+SourcePlace change_of(const Scenario& s, const Medium& medium) {
+  for (const Scenario::Factor& factor : s.media)
+    if (factor.name == medium.name) return factor.change;
+  return {};
+}
+
+/// A medium that only emits light; a data set of a fire also holds smoke.
+bool only_shines(const Medium& m) {
+  return m.emission && m.kind != MediumKind::data_set;
+}
+
+/// Reports a change of a variant, or a state, that thins smoke.
+void tell_of_smoke(const Scenario& s, const Medium& m, const std::string& what, Findings& out) {
+  const SourcePlace change = change_of(s, m);
+  if (change.line == 0) return tell_state(s, Severity::warning, what, out);
+  out.push_back({Severity::warning,
+                 "scenario",
+                 {change, "this [[change]] of \"" + m.name + "\" thins it: scenario \"" + s.name +
+                              "\" " + what}});
+}
+
 /// Reports smoke that has an extinction as written, and almost none in this state, without being
-/// removed.
+/// removed; and smoke that a change removes.
 void tell_thinned(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (!judges_people(scene)) return;
   for (const Medium& m : scene.media) {
     const double factor = factor_of_medium(s, m), written = largest_extinction(m);
-    if (m.emission || !(factor > 0) || factor > small_factor || written < hides_nothing ||
-        written * factor >= hides_nothing)
-      continue;
-    return tell_state(
-        s, Severity::warning,
+    if (only_shines(m) || written < hides_nothing) continue;
+    if (factor == 0 && change_of(s, m).line > 0)
+      return tell_of_smoke(s, m, "has none of it, and signs are judged without it", out);
+    if (!(factor > 0) || factor > small_factor || written * factor >= hides_nothing) continue;
+    return tell_of_smoke(
+        s, m,
         fmt::format("leaves {:g} of the smoke \"{}\", at most {:.2g} /m, through which "
                     "a lit sign is seen for {:.3g} m (Jin, 8/K): smoke_factor and the "
                     "factors in 'media' are shares, 1 for all of the smoke and 0 for "
@@ -198,9 +221,9 @@ void tell_time(const SceneDescription& scene, const Scenario& s, Findings& out) 
 
 bool any_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios) {
   return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
-    return !m.emission && std::any_of(scenarios.begin(), scenarios.end(), [&](const Scenario& s) {
-      return factor_of_medium(s, m) > 0;
-    });
+    return !only_shines(m) &&
+           std::any_of(scenarios.begin(), scenarios.end(),
+                       [&](const Scenario& s) { return factor_of_medium(s, m) > 0; });
   });
 }
 
@@ -243,15 +266,21 @@ void tell_people(const SceneDescription& scene, const std::vector<Scenario>& sce
 /// Reports smoke that is described, but absent in every state.
 void tell_unused_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
                        Findings& out) {
-  const auto first = std::find_if(scene.media.begin(), scene.media.end(),
-                                  [](const Medium& m) { return !m.emission; });
-  if (first == scene.media.end() || !judges_people(scene) ||
-      scenarios.size() < scene.scenarios.size() || any_smoke(scene, scenarios))
-    return;
-  out.push_back({Severity::warning,
-                 "scenario",
-                 {first->place, "no scenario has the smoke \"" + first->name +
-                                    "\", nor any other: signs are judged in clear air"}});
+  if (!judges_people(scene) || scenarios.size() < scene.scenarios.size()) return;
+  for (const Medium& m : scene.media) {
+    if (only_shines(m) || std::any_of(scenarios.begin(), scenarios.end(), [&](const Scenario& s) {
+          return factor_of_medium(s, m) > 0;
+        }))
+      continue;
+    const bool others = any_smoke(scene, scenarios);
+    out.push_back({Severity::warning,
+                   "scenario",
+                   {m.place, fmt::format("no scenario has the smoke \"{}\"{}", m.name,
+                                         others ? ": signs are judged without it"
+                                                : ", nor any other: signs are judged in clear "
+                                                  "air")}});
+    if (!others) return;
+  }
 }
 
 }  // namespace

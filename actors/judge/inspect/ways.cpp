@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
-#include "scenes/emergency/way.hpp"
+#include "actors/judge/inspect/ways_size.hpp"
 
 namespace luxodus {
 
@@ -32,6 +32,8 @@ constexpr double narrow_share = 0.1;
 constexpr size_t narrow_steps = 3;
 /// Escape routes are at least 0.8 m wide for few people (a person's shoulders need 0.6 m).
 constexpr double min_width_m = 0.6;
+/// A shorter route leads nowhere [m].
+constexpr double min_length_m = 0.5;
 /// EN 1838: wider routes are judged in strips [m].
 constexpr double strip_m = 2;
 /// Spacing of points in areas, and their distance from the outline [m].
@@ -87,7 +89,7 @@ struct Walk {
 
 Walk walk_along(const Site& site, const EscapeRoute& route) {
   Walk walk;
-  walk.places = along(route, 0, 1);
+  walk.places = places_along(route, 1);
   walk.above.resize(walk.places.size());
   walk.inside.resize(walk.places.size());
   const std::vector<char> furniture = furniture_of(site);
@@ -194,7 +196,7 @@ struct Width {
 };
 
 Width width_along(const Site& site, const EscapeRoute& route) {
-  const auto steps = walkers(route, width_step_m);
+  const auto steps = steps_along(route, width_step_m);
   Width width;
   width.left.assign(steps.size(), 0);
   width.right.assign(steps.size(), 0);
@@ -300,6 +302,11 @@ void inspect_route(const Site& site, const EscapeRoute& route, Findings& out) {
                            "leads through a wall, at " + place_text(walk.places[at])));
   }
   if (wall == nullptr && inside == walk.inside.end()) tell_barriers(site, route, walk, out);
+  if (const double length = length_of(route); length < min_length_m)
+    out.push_back(of_route(Severity::warning, route,
+                           fmt::format("is {} long, less than a few steps: nobody on it is judged "
+                                       "farther away; points are in metres",
+                                       length_text(length))));
   const bool wrong = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
                                  [](const Finding& f) { return f.severity == Severity::error; });
   if (route.width_m < min_width_m)
@@ -313,7 +320,7 @@ void inspect_route(const Site& site, const EscapeRoute& route, Findings& out) {
 
 void inspect_area(const Site& site, const char* word, const AssessedArea& area, bool is_floor,
                   Findings& out) {
-  const auto places = within(area, area_border_m, area_step_m);
+  const auto places = places_within(area, area_border_m, area_step_m);
   std::vector<std::optional<double>> above(places.size());
   std::vector<char> inside(places.size(), 0), outside(places.size(), 0);
   const std::vector<char> furniture = furniture_of(site);

@@ -482,6 +482,8 @@ Result<Json> finish_results(const std::filesystem::path& folder, const LocalRun&
   if (auto ok = write_flux_maps(folder, run); !ok) return ok.problem();
   Json result = result_json(run, record, maps);
   if (auto ok = write_json(folder / "result.json", result); !ok) return ok.problem();
+  // What is in range stays written.
+  if (auto ok = Readout(run.scene(), run.totals()).check_range(); !ok) return ok.problem();
   return result;
 }
 

@@ -37,7 +37,8 @@ Result<void> begin_results(const std::filesystem::path& folder, const LocalRun& 
 
 /// Writes planes/*.csv and *.png, patches.vtp and volume.vti into `folder`, then result.json, which
 /// it returns. `progress` counts the direct light, which takes longest.
-/// Requires: begin_results of the same run and record.
+/// Errors: files that cannot be written; then, a value that is out of range, which they do not
+/// hold. Requires: begin_results of the same run and record.
 Result<Json> finish_results(const std::filesystem::path& folder, const LocalRun& run,
                             const RunRecord& record, const ShareDone& progress = {});
 

@@ -1,8 +1,10 @@
 #include "actors/results/run/local_run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "runtime/core/check.hpp"
@@ -11,6 +13,9 @@
 namespace luxodus {
 
 namespace {
+
+/// Rays between two looks at the clock: a few milliseconds.
+constexpr uint64_t rays_of_portion = 20'000;
 
 /// Reaches geometry through another run.
 class RowsOfAnother final : public ParallelFor {
@@ -30,6 +35,27 @@ std::unique_ptr<LocalRun> LocalRun::empty_copy() const {
   return std::make_unique<LocalRun>(scene_, seed_, threads_,
                                     std::make_unique<RowsOfAnother>(*rows_));
 }
+
+/// How long a stop waits for the batches that have begun. One that takes longer is left out: its
+/// particles hardly end.
+class LocalRun::Patience {
+ public:
+  Patience(const StopRule& stop, const std::atomic<bool>& interrupt, std::function<double()> now)
+      : stop_(stop), interrupt_(interrupt), now_(std::move(now)) {}
+
+  bool is_over() {
+    const double now = now_();
+    if (!interrupt_.load() && !stop_.time_is_up(now)) return false;
+    if (!asked_at_) asked_at_ = now;
+    return now - *asked_at_ > stop_.waits_s;
+  }
+
+ private:
+  const StopRule& stop_;
+  const std::atomic<bool>& interrupt_;
+  std::function<double()> now_;
+  std::optional<double> asked_at_;  // when it was first seen that the run is to stop
+};
 
 class LocalRun::Clock {
  public:
@@ -82,6 +108,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
     flush_denormals();
     const auto tracer = make_tracer_(*scene_, GeometryAccess::resident(*index_), seed_);
     BatchScores scores;
+    Patience patience(stop, interrupt, [&] { return clock.seconds(); });
     while (true) {
       Batch batch;
       {
@@ -97,16 +124,38 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
         batch = next_batch();
       }
       scores.reset(scene_->layout);
-      tracer->trace(batch.group, batch.first_particle, scene_->batch_particles, scores);
-      for (uint32_t unit = 0; unit < tracer->look_units(); ++unit)
-        tracer->look(batch.number, unit, scores);
-      totals_.merge(scores, batch.group);
+      if (trace_batch(batch, *tracer, patience, scores)) {
+        totals_.merge(scores, batch.group);
+        continue;
+      }
+      const std::lock_guard lock(plan_mutex_);
+      missing_.push_back(batch.number);
     }
   };
   std::vector<std::thread> threads;
   for (int i = 1; i < threads_; ++i) threads.emplace_back(work);
   work();
   for (std::thread& t : threads) t.join();
+  std::sort(missing_.begin(), missing_.end());
+}
+
+bool LocalRun::trace_batch(const Batch& batch, BatchTracer& tracer, Patience& patience,
+                           BatchScores& scores) const {
+  // One particle first: it may take half a second where nothing absorbs light.
+  int64_t portion = 1;
+  for (int64_t traced = 0; traced < scene_->batch_particles;) {
+    if (patience.is_over()) return false;
+    const int64_t count = std::min(portion, scene_->batch_particles - traced);
+    const uint64_t before = scores.balance.rays;
+    tracer.trace(batch.group, batch.first_particle + static_cast<uint64_t>(traced), count, scores);
+    traced += count;
+    if (scores.balance.rays - before < rays_of_portion) portion *= 2;
+  }
+  for (uint32_t unit = 0; unit < tracer.look_units(); ++unit) {
+    if (patience.is_over()) return false;
+    tracer.look(batch.number, unit, scores);
+  }
+  return true;
 }
 
 StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrupt,

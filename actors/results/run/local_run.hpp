@@ -28,10 +28,9 @@ class LocalRun {
   LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
            std::unique_ptr<ParallelFor> rows);
 
-  /// Traces until `stop` holds or `interrupt` is set; batches in progress are finished. May be
-  /// called again to continue. `report` is called about four times a second, from one thread at a
-  /// time.
-  /// Requires: resident().
+  /// Traces until `stop` holds or `interrupt` is set; batches in progress are finished, unless they
+  /// take longer than StopRule::waits_s: those are missing(). May be called again to continue.
+  /// `report` is called about four times a second, from one thread at a time. Requires: resident().
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
 
@@ -102,7 +101,8 @@ class LocalRun {
   Totals& totals() { return totals_; }
   const Totals& totals() const { return totals_; }
   const EmbreeDevice& device() const { return device_; }
-  /// Batches given out so far, and those of them that the totals lack, because nodes were lost.
+  /// Batches given out so far, and those of them that the totals lack, because nodes were lost or a
+  /// stop did not wait for them.
   int64_t batches() const { return plan_.given(); }
   const std::vector<int64_t>& missing() const { return missing_; }
   int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
@@ -118,9 +118,13 @@ class LocalRun {
 
  private:
   class Clock;
+  class Patience;
   Batch next_batch();
   void trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
                    const std::function<void(const Progress&)>& report, const Clock& clock);
+  /// Traces a batch in portions; false if the run was to stop and the batch took too long.
+  bool trace_batch(const Batch& batch, BatchTracer& tracer, Patience& patience,
+                   BatchScores& scores) const;
   Progress progress(const StopRule& stop, double seconds) const {
     return progress_of(stop, scene_->batch_particles, batches_at_start_, traced(), seconds, error_);
   }

@@ -29,6 +29,9 @@ struct StopRule {
   std::optional<int64_t> particles;
   std::optional<double> relative_error;
   std::optional<double> seconds;
+  /// How long a stop by time or by an interrupt waits for batches in progress [s]: many times as
+  /// long as most take, but a batch in which hardly any light is absorbed takes minutes.
+  double waits_s = 5;
 
   /// Number of batches for `particles`; unreachably many without it.
   int64_t target_batches(int64_t batch_particles) const;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <new>
 
+#include "runtime/core/regular_file.hpp"
 #include "scenes/formats/fields/data_set_fields.hpp"
 
 namespace luxodus {
@@ -153,9 +154,7 @@ Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOption
   if (!nrrd && ending != ".vti") {
     return problem_in(path, "unknown kind of data set: .nrrd, .nhdr and .vti are read");
   }
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    return problem_in(path, "there is no such file", ProblemKind::not_found);
+  if (const auto size = size_of_regular_file(path); !size) return size.problem();
   try {
     Result<Grid> grid = nrrd ? data_set::read_nrrd(path, options) : data_set::read_vti(path);
     if (!grid) return grid.problem();

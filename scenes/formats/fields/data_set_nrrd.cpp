@@ -325,10 +325,11 @@ class NrrdReader {
       first = 0;
       grid_.files_read.push_back(data_path_);
     }
-    std::error_code error;
-    if (!fs::is_regular_file(data_path_, error)) return bad("data file", "a file that exists");
-    const uint64_t size = fs::file_size(data_path_, error);
-    if (error) return bad("data file", "a file that can be read");
+    const auto found = size_of_regular_file(data_path_);
+    if (!found && found.problem().kind == ProblemKind::not_found)
+      return bad("data file", "a file that exists");
+    if (!found) return found.problem();
+    const uint64_t size = found.value();
     data_.open(data_path_, std::ios::binary);
     if (auto ok = skip_lines(first); !ok) return ok.problem();
     // At most 2^31 cells of 8 fields of 8 bytes: no overflow.

@@ -95,8 +95,7 @@ void make_rows(DecodeState& state) {
 }
 
 Result<void> load(const std::string& path, DecodeState& state) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return problem_in(path, "there is no such file");
+  if (const auto size = size_of_regular_file(path); !size) return size.problem();
   auto bytes = read_regular_file(path, limits::image_file_bytes);
   if (!bytes) return bytes.problem();
   state.file.assign(bytes->begin(), bytes->end());

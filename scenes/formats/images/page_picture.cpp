@@ -1,5 +1,6 @@
 #include "scenes/formats/images/page_picture.hpp"
 
+#include "runtime/core/regular_file.hpp"
 #include "scenes/formats/images/image_file.hpp"
 #include "scenes/formats/images/write_image.hpp"
 #include "scenes/light/optics/chromaticity.hpp"
@@ -29,12 +30,10 @@ PngImage on_white(const Image& image) {
 
 Result<PagePicture> read_page_picture(const std::filesystem::path& path, const std::string& what,
                                       uint64_t max_bytes, int max_side) {
-  std::error_code failed;
   const SourcePlace place{path.string(), 0};
-  if (!std::filesystem::is_regular_file(path, failed))
-    return problem_in(place, "there is no such file");
-  const uint64_t size = std::filesystem::file_size(path, failed);
-  if (failed || size > max_bytes)
+  const auto size = size_of_regular_file(path);
+  if (!size) return size.problem();
+  if (size.value() > max_bytes)
     return problem_in(
         place, what + " has at most " + std::to_string(max_bytes >> 20) + " MiB; make it smaller");
   const auto image = read_png(path.string());

@@ -77,15 +77,12 @@ bool is_colour_code(const DigitRun& run) {
 
 Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   const SourcePlace place{path.string(), 0};
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
+  const auto size = size_of_regular_file(path);
+  if (!size && size.problem().kind == ProblemKind::not_found)
     return problem_in(place,
                       "no such photometric file; check the path, it is taken from the scene");
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error)
-    return problem_in(place, "the photometric file's size cannot be read; is it still there?");
-  if (size > max_file_bytes) {
+  if (!size) return size.problem();
+  if (size.value() > max_file_bytes) {
     return problem_in(place,
                       "the file is larger than 16 MiB, more than any photometric file needs");
   }

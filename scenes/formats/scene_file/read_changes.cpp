@@ -155,7 +155,8 @@ bool is_absent(KeyReader& keys) {
 }
 
 /// Applies to every scenario, whether it names the medium or not.
-void thicken(SceneDescription& scene, const std::string& medium, double factor) {
+void thicken(SceneDescription& scene, const std::string& medium, double factor,
+             const SourcePlace& place) {
   if (scene.scenarios.empty()) {
     scene.scenarios.emplace_back();
     scene.scenarios.back().name = "mains";
@@ -163,10 +164,12 @@ void thicken(SceneDescription& scene, const std::string& medium, double factor) 
   for (Scenario& scenario : scene.scenarios) {
     const auto named = std::find_if(scenario.media.begin(), scenario.media.end(),
                                     [&](const auto& m) { return m.name == medium; });
-    if (named != scenario.media.end())
-      named->factor *= factor;
-    else
-      scenario.media.push_back({medium, scenario.smoke_factor * factor});
+    if (named == scenario.media.end()) {
+      scenario.media.push_back({medium, scenario.smoke_factor * factor, place});
+      continue;
+    }
+    named->factor *= factor;
+    named->change = place;
   }
 }
 
@@ -214,7 +217,7 @@ void read_change(const toml::Table& table, SceneReading& reading) {
       keys.problem("copy", "a medium is not copied: it takes a 'factor' alone");
     else if (keys.has("position") || keys.has("facing"))
       keys.problem("kind", "a medium is not moved: it takes a 'factor' alone");
-    thicken(scene, medium->name, factor);
+    thicken(scene, medium->name, factor, keys.place());
   }
 }
 

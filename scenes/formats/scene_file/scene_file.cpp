@@ -83,15 +83,17 @@ class Loader {
 
  private:
   std::optional<std::string> bytes_of(const fs::path& path) {
-    std::error_code error;
-    const auto size = fs::file_size(path, error);
-    if (!fs::exists(path, error)) {
-      reading_.problem({path.string(), 0}, "there is no such scene file");
+    const auto size = size_of_regular_file(path);
+    if (!size) {
+      if (size.problem().kind == ProblemKind::not_found)
+        reading_.problem({path.string(), 0}, "there is no such scene file");
+      else
+        reading_.problem(size.problem());
       return std::nullopt;
     }
-    if (fs::is_regular_file(path, error) && size > scene_limits::file_bytes) {
+    if (size.value() > scene_limits::file_bytes) {
       reading_.problem({path.string(), 0},
-                       "this scene file has " + std::to_string(size) + " bytes; at most " +
+                       "this scene file has " + std::to_string(size.value()) + " bytes; at most " +
                            std::to_string(scene_limits::file_bytes) +
                            " are read; put large geometry into an OBJ or glTF file");
       return std::nullopt;

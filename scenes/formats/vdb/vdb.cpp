@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "runtime/core/isolated_job.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/formats/vdb/vdb_answer.hpp"
 
 namespace luxodus {
@@ -31,14 +32,11 @@ Problem unsound(const fs::path& file) {
 
 /// The size of the file [bytes]. Errors: no such file, or too large.
 Result<uint64_t> checked_size(const fs::path& file) {
-  std::error_code failed;
-  const uint64_t bytes = fs::file_size(file, failed);
-  if (failed || !fs::is_regular_file(file, failed))
-    return problem_in(file, "there is no such file");
-  if (bytes > limits::vdb_bytes)
+  const auto bytes = size_of_regular_file(file);
+  if (bytes && bytes.value() > limits::vdb_bytes)
     return problem_in(file, fmt::format("it has {} bytes, the most are {}: save the grid of the "
                                         "smoke alone",
-                                        bytes, limits::vdb_bytes));
+                                        bytes.value(), limits::vdb_bytes));
   return bytes;
 }
 

@@ -13,6 +13,7 @@
 
 #include "runtime/core/isolated_job.hpp"
 #include "runtime/core/reading_share.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/light/geometry/gltf_import.hpp"
 #include "scenes/light/geometry/obj_import.hpp"
 
@@ -175,10 +176,10 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
   if (ending != ".obj" && ending != ".gltf" && ending != ".glb") {
     return problem_in(path, "unknown kind of mesh: .obj, .gltf and .glb are read");
   }
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return problem_in(path, "there is no such file");
-  const uint64_t bytes = fs::file_size(path, error);
-  if (error || bytes > limits::mesh_file_bytes) {
+  const auto size = size_of_regular_file(path);
+  if (!size) return size.problem();
+  const uint64_t bytes = size.value();
+  if (bytes > limits::mesh_file_bytes) {
     return problem_in(path, fmt::format("it has {} bytes, the most are {}: simplify or split it",
                                         bytes, limits::mesh_file_bytes));
   }

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "runtime/core/regular_file.hpp"
@@ -155,11 +154,12 @@ Result<void> check_aspect(double width, double height, double width_m, double he
 // ---- cairo, librsvg, libpng --------------------------------------------------------------------
 
 Result<std::string> read_drawing(const std::filesystem::path& file) {
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed))
+  const auto size = size_of_regular_file(file);
+  if (!size && size.problem().kind == ProblemKind::not_found)
     return problem_in(file, "there is no such file; give the path of the sign's SVG drawing",
                       ProblemKind::not_found);
-  if (std::filesystem::file_size(file, failed) > static_cast<uint64_t>(limits::max_drawing_bytes))
+  if (!size) return size.problem();
+  if (size.value() > static_cast<uint64_t>(limits::max_drawing_bytes))
     return problem_in(file, "the drawing is larger than 4 MiB; simplify it");
   auto bytes = read_regular_file(file, static_cast<uint64_t>(limits::max_drawing_bytes));
   if (bytes && bytes->empty()) return problem_in(file, "the file is empty or cannot be read");
@@ -177,12 +177,13 @@ struct PngReader {
 };
 
 Result<Pixels> read_png(const std::filesystem::path& file) {
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed))
-    return problem_in(file, "there is no such file; give the path of the sign's PNG picture");
-  const auto bytes = std::filesystem::file_size(file, failed);
-  if (failed || bytes > static_cast<uintmax_t>(limits::max_picture_bytes))
-    return problem_in(file, "the picture is larger than 64 MiB or cannot be read");
+  const auto size = size_of_regular_file(file);
+  if (!size && size.problem().kind == ProblemKind::not_found)
+    return problem_in(file, "there is no such file; give the path of the sign's PNG picture",
+                      ProblemKind::not_found);
+  if (!size) return size.problem();
+  if (size.value() > static_cast<uint64_t>(limits::max_picture_bytes))
+    return problem_in(file, "the picture is larger than 64 MiB; scale it down");
   PngReader png;
   if (!png_image_begin_read_from_file(&png.state, file.c_str()))
     return problem_in(file, std::string("it is not a PNG picture (") + png.state.message + ")");

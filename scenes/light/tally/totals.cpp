@@ -13,10 +13,11 @@ namespace luxodus {
 namespace {
 
 void add_score(Total& total, int64_t score) {
+  if (score == limits::out_of_range) return total.leave_range();
   total.sum += score;
   const int64_t half = int64_t{1} << (Totals::square_shift - 1);
   const Int128 shifted = (static_cast<Int128>(score) + half) >> Totals::square_shift;
-  total.squares += static_cast<UInt128>(shifted * shifted);
+  total.add_squares(static_cast<UInt128>(shifted * shifted));
 }
 
 }  // namespace
@@ -139,10 +140,7 @@ void Totals::add_bins(int group, int64_t first, std::span<const Total> bins) {
     {
       const std::lock_guard lock(stripes_[static_cast<size_t>(stripe) % stripes_.size()]);
       Total* const to = totals.touch(first, static_cast<int64_t>(count));
-      for (size_t i = 0; i < count; ++i) {
-        to[i].sum += bins[i].sum;
-        to[i].squares += bins[i].squares;
-      }
+      for (size_t i = 0; i < count; ++i) to[i].add(bins[i]);
     }
     bins = bins.subspan(count);
     first += static_cast<int64_t>(count);
@@ -185,11 +183,8 @@ void Totals::add(const TotalsGain& gain) {
   for (size_t g = 0; g < gain.groups.size(); ++g) {
     GroupState& group = groups_[g];
     group.batches += gain.groups[g].batches;
-    for (const TotalsGain::Bin& bin : gain.groups[g].bins) {
-      Total& total = *group.totals.touch(bin.index);
-      total.sum += bin.total.sum;
-      total.squares += bin.total.squares;
-    }
+    for (const TotalsGain::Bin& bin : gain.groups[g].bins)
+      group.totals.touch(bin.index)->add(bin.total);
   }
   ledger_.add(gain.balance);
 }
@@ -199,6 +194,8 @@ namespace {
 BatchMean mean_of(const Total& total, int64_t batches) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   if (batches == 0) return {0, nan};
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (!total.in_range()) return {infinite, infinite};
   const auto n = static_cast<double>(batches);
   const double mean = to_double(total.sum) / n;
   if (batches < 2) return {mean, nan};
@@ -218,8 +215,7 @@ BatchMean Totals::pooled_mean(int64_t total_index) const {
   Total sum;
   int64_t batches = 0;
   for (const GroupState& g : groups_) {
-    sum.sum += g.totals[static_cast<size_t>(total_index)].sum;
-    sum.squares += g.totals[static_cast<size_t>(total_index)].squares;
+    sum.add(g.totals[static_cast<size_t>(total_index)]);
     batches += g.batches;
   }
   return mean_of(sum, batches);

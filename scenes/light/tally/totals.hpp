@@ -20,7 +20,17 @@ namespace luxodus {
 
 struct Total {
   Int128 sum = 0;
-  UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
+  UInt128 squares = 0;  // of (batch score >> square_shift, rounded); all bits set: out of range
+
+  /// Marks it as holding a score that was out of range, and totals that it is added to.
+  void leave_range() { squares = ~UInt128{0}; }
+  bool in_range() const { return squares != ~UInt128{0}; }
+  void add(const Total& other) {
+    sum += other.sum;
+    add_squares(other.squares);
+  }
+  /// Saturates, so that the mark stays whatever is added, in any order.
+  void add_squares(UInt128 more) { squares = more > ~squares ? ~UInt128{0} : squares + more; }
 };
 
 /// A range [first, end) of bins of totals, for all source groups.
@@ -44,7 +54,7 @@ struct TotalsGain {
   EnergyBalance balance;
 };
 
-/// Mean and standard error of a score per batch.
+/// Mean and standard error of a score per batch; infinite if a score was out of range.
 struct BatchMean {
   double mean = 0;
   double standard_error = 0;

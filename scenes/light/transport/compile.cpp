@@ -16,6 +16,7 @@
 #include "scenes/light/transport/error_target.hpp"
 #include "scenes/light/transport/flame_points.hpp"
 #include "scenes/light/transport/packed_scene.hpp"
+#include "scenes/light/transport/value_scores.hpp"
 
 namespace luxodus {
 
@@ -208,6 +209,12 @@ Result<void> resolve_surface_groups(CompiledScene& scene) {
     scene.surface_groups.push_back(std::move(members));
   }
   return {};
+}
+
+double flux_of(const CompiledScene& scene) {
+  double lumens = 0;
+  for (const CompiledEmitter& e : scene.emitters) lumens += e.luminous_flux_lm;
+  return lumens;
 }
 
 void choose_features(CompiledScene& scene) {
@@ -410,6 +417,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   choose_eye_targets(*scene);
   mix_groups(*scene, options.mixtures);
   if (auto ok = choose_error_target(*scene, options.error_of); !ok) return ok.problem();
+  scene->light_quantum = light_quantum_of(flux_of(*scene));
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);

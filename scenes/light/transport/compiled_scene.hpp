@@ -262,7 +262,8 @@ struct CompiledScene {
   std::vector<double> batch_shares;           // of each group [1]; empty: by BatchPlan's own rule
   std::vector<std::vector<double>> mixtures;  // for each, a factor per source group
   int eye_paths_per_batch = 0;                // per eye target part and per probe
-  uint64_t scene_hash = 0;                    // of content, scenario, partition, seed
+  double light_quantum = 0;  // of a value of light (limits::value_quantum) [cd/m2, lx]
+  uint64_t scene_hash = 0;   // of content, scenario, partition, seed
   uint64_t triangles = 0;
   uint32_t patch_count = 0;
   double total_area_m2 = 0;

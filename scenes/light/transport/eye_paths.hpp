@@ -9,17 +9,9 @@
 
 #include "scenes/light/geometry/real.hpp"
 #include "scenes/light/transport/path_tracer.hpp"
+#include "scenes/light/transport/value_scores.hpp"
 
 namespace luxodus {
-
-namespace limits {
-/// Quantum of a value score [its unit]: with 2^-40, int64 holds up to 8 million cd/m2 per batch
-/// mean.
-inline constexpr double value_quantum = 0x1p-40;
-}  // namespace limits
-
-/// A batch's mean as a score; clamped at 2^62 quanta.
-int64_t value_score(double mean);
 
 /// The texels of each colour of a face, to aim at.
 struct FaceTexels {
@@ -99,7 +91,10 @@ class EyeScores {
   void store(uint32_t block, uint32_t bin, std::initializer_list<double> sums,
              BatchScores& scores) const {
     int64_t* score = scores.scores.data() + scene_.layout.score_index(block, bin, 0, 0);
-    for (const double sum : sums) *score++ = value_score(sum / static_cast<double>(paths_));
+    uint32_t quantity = 0;
+    for (const double sum : sums)
+      *score++ =
+          value_score(sum / static_cast<double>(paths_), quantum_of(scene_, block, quantity++));
   }
 
   // ---- a sign seen by an observer

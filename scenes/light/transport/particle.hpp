@@ -21,19 +21,6 @@
 
 namespace luxodus {
 
-namespace limits {
-/// Events of one history; a longer one counts as lost. With analogue absorption, a closed room of
-/// reflectance 0.999 needs about 1000 on average, and 20 000 for one particle in 1e9; albedo 1 in
-/// thick fog needs more.
-inline constexpr int events_per_history = 1'000'000;
-/// Rays of one batch; later particles count as lost. A ray adds at most one birth weight, 2^32, to
-/// a score, so no score exceeds 2^63 while a batch has fewer than 2^31 rays. Only unbounded volumes
-/// count longer flights, up to 1024 sizes of the scene: to overflow, the million particles that a
-/// batch may have would have to fly 2000 sizes each.
-inline constexpr uint64_t rays_per_batch = (uint64_t{1} << 31) - events_per_history;
-static_assert(unit_weight == uint64_t{1} << 32);
-}  // namespace limits
-
 namespace defaults {
 /// Russian roulette: below `roulette_below` (share of the birth weight) a particle is either ended
 /// or continues with weight `roulette_to`.

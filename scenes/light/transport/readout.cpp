@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "scenes/light/transport/eye_paths.hpp"
+#include "scenes/light/transport/value_scores.hpp"
 
 namespace luxodus {
 
@@ -55,7 +55,6 @@ std::vector<std::vector<int64_t>> photopic_weights(const CompiledScene& scene) {
 }
 
 double Readout::scale(int group, int channel, ScoreUnit unit) const {
-  if (unit == ScoreUnit::value) return limits::value_quantum;
   const Group& g = scene_.groups[static_cast<size_t>(group)];
   const double per_particle = 1.0 / (static_cast<double>(scene_.batch_particles) * 0x1p32);
   const double length = unit == ScoreUnit::weight_length ? scene_.length_unit_m : 1;
@@ -97,7 +96,7 @@ Estimate Readout::value(uint32_t block, uint32_t bin, uint32_t quantity) const {
   // Every batch has value scores, whatever its group: the groups' samples are pooled.
   const int64_t index = scene_.layout.total_index(block, bin, 0, quantity);
   const BatchMean m = totals_.pooled_mean(index);
-  return {m.mean * limits::value_quantum, m.standard_error * limits::value_quantum};
+  return Estimate{m.mean, m.standard_error} * quantum_of(scene_, block, quantity);
 }
 
 std::vector<Readout::TargetFlux> Readout::target_planes() const {
@@ -174,12 +173,44 @@ double Readout::worst_relative_error() const {
   std::optional<double> worst;
   const auto judge = [&](double error) { worst = std::max(worst.value_or(0), error); };
   for (const TargetValue& v : target_values()) {
-    if (v.value.value > 0) judge(known_error(v.value));
+    // One that is out of range gets no better, however long a run takes.
+    if (v.value.value > 0) judge(std::isinf(v.value.value) ? 0 : known_error(v.value));
   }
   for (const TargetPercentile& many : target_percentiles()) {
     if (const auto error = percentile_error(many.fluxes)) judge(*error);
   }
   return worst.value_or(std::numeric_limits<double>::infinity());
+}
+
+bool Readout::is_beyond(uint32_t block, uint32_t bin) const {
+  if (block == none_index) return false;
+  for (uint32_t q = 0; q < scene_.layout.block(block).quantities; ++q)
+    if (std::isinf(value(block, bin, q).value)) return true;
+  return false;
+}
+
+Result<void> Readout::check_range() const {
+  const SceneDescription& d = *scene_.description;
+  const auto refused = [&](const std::string& what) {
+    return problem_in(
+        d.file, "the light at " + what +
+                    " is beyond what is counted in a scene of this flux: lessen its sources, or "
+                    "move what is measured away from one that is next to it");
+  };
+  for (uint32_t p = 0; p < d.probes.size(); ++p)
+    if (is_beyond(scene_.blocks.probes, p)) return refused("probe \"" + d.probes[p].name + "\"");
+  constexpr uint32_t parts = 3;
+  const auto mixtures = static_cast<uint32_t>(scene_.mixtures.size());
+  for (const EyeTarget& target : scene_.eye_targets)
+    for (uint32_t bin = target.first_bin; bin < target.first_bin + parts; ++bin) {
+      bool beyond = is_beyond(scene_.blocks.views, bin);
+      for (uint32_t m = 0; m < mixtures; ++m)
+        beyond = beyond || is_beyond(scene_.blocks.views_by_mixture, bin * mixtures + m);
+      if (beyond)
+        return refused("sign \"" + d.signs[scene_.signs[target.sign].sign].name + "\" from \"" +
+                       d.observers[target.observer].name + "\"");
+    }
+  return {};
 }
 
 std::vector<std::string> Readout::unlit() const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/core/result.hpp"
 #include "scenes/light/tally/totals.hpp"
 #include "scenes/light/transport/compiled_scene.hpp"
 
@@ -31,7 +32,7 @@ class Readout {
   Estimate watts(uint32_t block, uint32_t bin, int band, uint32_t quantity, int group = -1) const;
   /// Lumens (lumen metres). All groups, or one.
   Estimate lumens(uint32_t block, uint32_t bin, uint32_t quantity, int group = -1) const;
-  /// A value score in its own unit.
+  /// A value score in its own unit; infinite if a batch's was out of range.
   Estimate value(uint32_t block, uint32_t bin, uint32_t quantity) const;
 
   /// A flux whose error is a target, and that all batches of a group contribute to; lumens()
@@ -55,8 +56,12 @@ class Readout {
   double worst_relative_error() const;
   /// Targets without light, which that error excludes: "sign NAME", "3 of 40 patches".
   std::vector<std::string> unlit() const;
+  /// Errors: a value of a probe, or of a sign from an observer, that is out of range.
+  Result<void> check_range() const;
 
  private:
+  /// Whether a value of this bin is out of range.
+  bool is_beyond(uint32_t block, uint32_t bin) const;
   struct TargetValue {
     std::string name;  // "plane NAME"
     Estimate value;

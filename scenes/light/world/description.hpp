@@ -380,6 +380,7 @@ struct Scenario {
   struct Factor {
     std::string name;
     double factor;
+    SourcePlace change = {};  // the change of a variant that has scaled it; line 0: none
   };
   std::string name;
   SourcePlace place;

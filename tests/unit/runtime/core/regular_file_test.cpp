@@ -36,6 +36,29 @@ TEST_CASE("a file is read whole, up to its limit", "[core][files]") {
   CHECK(read_regular_file("/proc/self/status", 1 << 20).ok());  // it reports 0 bytes
 }
 
+TEST_CASE("a file that cannot be reached is told by what the system says", "[core][files]") {
+  const test::TemporaryFolder folder;
+  const auto problem_of = [](const fs::path& path) {
+    const auto size = size_of_regular_file(path);
+    REQUIRE_FALSE(size.ok());
+    return size.problem();
+  };
+  std::ofstream(folder / "a") << "four";
+  CHECK(size_of_regular_file(folder / "a").value() == 4);
+  CHECK(problem_of(folder / "absent").what == "there is no such file");
+  CHECK(problem_of(folder / "absent").kind == ProblemKind::not_found);
+  CHECK(problem_of(folder.path()).what.find("Is a directory") != std::string::npos);
+  fs::create_symlink("loop", folder / "loop");
+  CHECK(problem_of(folder / "loop").what.find("Too many levels") != std::string::npos);
+  if (::geteuid() == 0) {
+    WARN("the superuser is denied no file");
+    return;
+  }
+  fs::permissions(folder / "a", fs::perms::none);
+  CHECK(problem_of(folder / "a").what.find("Permission denied") != std::string::npos);
+  CHECK(problem_of(folder / "a").kind == ProblemKind::refused);
+}
+
 TEST_CASE("anything but a regular file is rejected without waiting", "[core][files]") {
   const test::TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";

@@ -8,8 +8,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <string_view>
 #include <thread>
 
 #include "tests/kit/temporary_folder.hpp"
@@ -67,6 +69,20 @@ void exchange(RealNode& one, RealNode& other) {
 
 Endpoints tcp() {
   return {"tcp://127.0.0.1:*", "tcp://127.0.0.1:*"};
+}
+
+/// A program that is no node, and accepts without waiting; port 0: any free one.
+int listener_at(uint16_t port) {
+  const int out = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const int yes = 1;
+  ::setsockopt(out, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  place.sin_port = htons(port);
+  REQUIRE(::bind(out, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+  REQUIRE(::listen(out, 8) == 0);
+  return out;
 }
 
 /// A pair over TCP with CURVE: two contexts, as in two processes.
@@ -152,21 +168,43 @@ TEST_CASE("an aborted handshake at a proven endpoint is not reported as a wrong 
     REQUIRE(both_up(one, other));
   }
   // What a reconnecting neighbour sees of a leaving node: it accepts, and is gone.
-  const int leaving = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const int yes = 1;
-  ::setsockopt(leaving, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  sockaddr_in place{};
-  place.sin_family = AF_INET;
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  place.sin_port =
-      htons(static_cast<uint16_t>(std::stoi(where.control.substr(where.control.rfind(':') + 1))));
-  REQUIRE(::bind(leaving, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
-  REQUIRE(::listen(leaving, 8) == 0);
+  const int leaving = listener_at(
+      static_cast<uint16_t>(std::stoi(where.control.substr(where.control.rfind(':') + 1))));
   CHECK(poll_until({&other}, [&] {
     if (const int came = ::accept(leaving, nullptr, nullptr); came >= 0) ::close(came);
     return other.transport.counters().broken_off >= 1;
   }));
   ::close(leaving);
+  CHECK(other.transport.counters().handshake_failed == 0);
+}
+
+TEST_CASE("another program at a neighbour's port is not reported as a wrong key",
+          "[runtime][zmq]") {
+  const KeyPair keys_b = make_keypair();
+  ZmqContext context({});
+  RealNode other(context, {b, keys_b}, config_of(1, 2, ring(2), 1001));
+  const int foreign = listener_at(0);
+  sockaddr_in place{};
+  socklen_t size = sizeof place;
+  REQUIRE(::getsockname(foreign, reinterpret_cast<sockaddr*>(&place), &size) == 0);
+  const std::string where = "tcp://127.0.0.1:" + std::to_string(ntohs(place.sin_port));
+  REQUIRE(other.transport.connect(a, {where, where}, make_keypair().public_key).ok());
+  SECTION("one that answers in its own protocol") {
+    CHECK(poll_until({&other}, [&] {
+      if (const int came = ::accept(foreign, nullptr, nullptr); came >= 0) {
+        std::array<char, 256> request;
+        (void)::recv(came, request.data(), request.size(), 0);
+        const std::string_view answer = "HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n";
+        (void)::send(came, answer.data(), answer.size(), MSG_NOSIGNAL);
+        ::close(came);
+      }
+      return other.transport.counters().not_a_node >= 1;
+    }));
+  }
+  SECTION("one that waits in silence") {
+    CHECK(poll_until({&other}, [&] { return other.transport.counters().not_a_node >= 1; }));
+  }
+  ::close(foreign);
   CHECK(other.transport.counters().handshake_failed == 0);
 }
 

@@ -147,6 +147,16 @@ TEST_CASE("smoke with an extinction of zero is clear air", "[assess][slips]") {
                     [](const StateWarning& w) { return w.remark == remark(RemarkId::clear_air); }));
 }
 
+TEST_CASE("a state that lacks one of several smokes says so", "[assess][slips]") {
+  const auto smoke = [](const std::string& name, const std::string& extinction) {
+    return "[[medium]]\nname = \"" + name +
+           "\"\nkind = \"homogeneous\"\nextinction = " + extinction + "\nalbedo = 0.3\n";
+  };
+  const std::string two = smoke("thick", "2") + smoke("haze", "0.01");
+  CHECK(remarks(in_state("media = { thick = 0 }\n") + two, "none of the smoke \"thick\""));
+  CHECK_FALSE(remarks(room + two, "none of the smoke"));
+}
+
 TEST_CASE("the first sentence says what was judged and what came of it", "[assess][slips]") {
   const Assessment a = assessed(in_state("seconds_after_failure = 600\n"), by_codes());
   const std::string first = record_of(*described_text(room), a, "1").verdict.first;

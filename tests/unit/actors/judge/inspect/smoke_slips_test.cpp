@@ -193,6 +193,34 @@ TEST_CASE("smoke scaled down to clear air is reported", "[inspect][state][smoke]
   check_no_alarm(found("smoke_factor = 0.1\n"));
 }
 
+TEST_CASE("one of several smokes that is in no scenario is reported", "[inspect][smoke]") {
+  const std::string haze =
+      "[[medium]]\nname = \"haze\"\nkind = \"homogeneous\"\n"
+      "extinction = 0.01\nalbedo = 0.3\n";
+  const auto found = [&](const std::string& keys) {
+    return found_in(judged_room + even("extinction = 0.5\nalbedo = 0.3") + haze + state(keys));
+  };
+  check_found(found("media = { smoke = 0 }\n"), Severity::warning,
+              "no scenario has the smoke \"smoke\": signs are judged without it");
+  CHECK(that_say(found(""), "no scenario has the smoke").empty());
+}
+
+TEST_CASE("a change that thins smoke is named, not the scenario", "[inspect][state][smoke]") {
+  const auto found = [](const std::string& factor) {
+    return found_in(
+        "include = [\"base.toml\"]\n\n[[change]]\nkind = \"medium\"\n"
+        "of = \"smoke\"\nfactor = " +
+            factor + "\n",
+        {{"base.toml", judged_room + even("extinction = 0.5\nalbedo = 0.3") + state("")}});
+  };
+  for (const char* factor : {"0.01", "0"}) {
+    const auto findings = found(factor);
+    check_found(findings, Severity::warning, "this [[change]] of \"smoke\" thins it");
+    CHECK(that_say(findings, "thins it").front().problem.where.line == 3);
+  }
+  check_no_alarm(found("0.5"));
+}
+
 TEST_CASE("a glow that is judged at the moment of the failure is reported", "[inspect][state]") {
   const std::string glow =
       replaced(replaced(exit_sign, "mains_white = 500\nmains_green = 50\n", ""),

@@ -304,3 +304,49 @@ TEST_CASE("batches that touch few pages have the totals of a merge over all bins
   CHECK(sparse.bytes() == 0);
   CHECK(sparse.next_bin(0, 0) == layout.totals());
 }
+
+TEST_CASE("totals with a score that was out of range have no mean, whatever is added", "[tally]") {
+  const Layout l(1);
+  const auto batch_of = [&](int64_t score) {
+    BatchScores scores = l.batch();
+    l.at(scores, l.value, 0, 0, 0) = score;
+    l.at(scores, l.value, 1, 0, 0) = 5;
+    return scores;
+  };
+  const int64_t bin = l.layout.total_index(l.value, 0, 0, 0);
+  const auto check_marked = [&](const Totals& totals) {
+    CHECK(std::isinf(totals.mean(0, bin).mean));
+    CHECK(std::isinf(totals.pooled_mean(bin).standard_error));
+    CHECK(totals.mean(0, bin + 1).mean == 5);
+  };
+  constexpr int64_t most = int64_t{1} << 62;
+  for (const std::vector<int64_t>& order : {std::vector<int64_t>{limits::out_of_range, 7, most},
+                                            {7, most, limits::out_of_range},
+                                            {limits::out_of_range, limits::out_of_range, 7}}) {
+    Totals totals(l.layout, 1, ones(1, 1));
+    for (const int64_t score : order) {
+      BatchScores scores = batch_of(score);
+      totals.merge(scores, 0);
+    }
+    check_marked(totals);
+    // Also after they were sent elsewhere.
+    Totals there(l.layout, 1, ones(1, 1));
+    BatchScores own = batch_of(9);
+    there.merge(own, 0);
+    TotalsGain gain;
+    gain.groups.emplace_back();
+    gain.groups.front().batches = totals.take_batches(0);
+    totals.take_bins(0, 0, l.layout.totals(), [&](int64_t index, const Total& total) {
+      gain.groups.front().bins.push_back({index, total});
+    });
+    there.add(gain);
+    check_marked(there);
+  }
+  // The largest scores, as many as a run may have, are in range.
+  Totals totals(l.layout, 1, ones(1, 1));
+  for (int i = 0; i < 64; ++i) {
+    BatchScores scores = batch_of(most);
+    totals.merge(scores, 0);
+  }
+  CHECK(totals.mean(0, bin).mean == 0x1p62);
+}
