@@ -107,6 +107,8 @@ const NamedSource named_sources[] = {
 
 /// Devices with less smoke say nothing of relative differences.
 constexpr double least_depth = 0.05, least_extinction = 0.05;
+/// Tables have eight digits of a percentage: they cannot tell more.
+constexpr double largest_told_depth = 12;
 
 struct Differences {
   std::vector<double> beams, points;
@@ -130,7 +132,7 @@ Differences differences_of(const DeviceCase& c, const NamedSource& source) {
       const double value = measured.at(d.name);
       if (d.is_beam) {
         const double depth = -std::log(std::max(1e-12, 1 - value / 100));
-        if (depth >= least_depth)
+        if (depth >= least_depth && depth <= largest_told_depth)
           out.beams.push_back(std::abs(depth_along(set, d.from, d.to) / depth - 1));
       } else if (value >= least_extinction) {
         out.points.push_back(std::abs(extinction_at(fire.value(), d.from) / value - 1));
