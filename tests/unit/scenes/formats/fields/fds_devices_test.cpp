@@ -29,9 +29,8 @@ struct FireDevice {
 /// Beams and points of an input file, each on one line.
 std::vector<FireDevice> devices_of(const std::filesystem::path& input) {
   std::vector<FireDevice> out;
-  const std::regex device(
-      R"(&DEVC ID='(\w+)',\s+(XB|XYZ)=([-0-9.,]+), QUANTITY=)"
-      R"('(PATH OBSCURATION|EXTINCTION COEFFICIENT)')");
+  const std::regex device(R"(&DEVC ID='(\w+)',\s+(XB|XYZ)=([-0-9.,]+), QUANTITY=)"
+                          R"('(PATH OBSCURATION|EXTINCTION COEFFICIENT)')");
   std::ifstream in(input);
   for (std::string line; std::getline(in, line);) {
     std::smatch found;
