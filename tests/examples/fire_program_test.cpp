@@ -113,7 +113,25 @@ TEST_CASE("an input file is imported with the smoke beside it, and the user's fi
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("\"shelv\""));
   folder.write("case.fds", input + "&TRNX CC=1, PC=1.2 /\n");
-  CHECK_THAT(import_it("").err, Contains("case.fds:8: &TRNX is not imported"));
+  CHECK_THAT(import_it("--snap").err, Contains("case.fds:8: the grid is stretched"));
+  const Outcome stretched = import_it("");
+  CHECK(stretched.code == 0);
+  CHECK_THAT(stretched.out, Contains("note: line 8: the grid is stretched"));
+}
+
+TEST_CASE("an import without a time takes the end of a shorter run", "[program][fds]") {
+  const TemporaryFolder folder;
+  write_small_case(folder);
+  const std::string scene = in_folder(folder, "room/scene.toml");
+  REQUIRE(run_luxodus(folder, "import fds " + in_folder(folder, "fire.smv") + " --out " +
+                                  in_folder(folder, "room"))
+              .code == 0);
+  CHECK_THAT(slurp(folder / "room/scene.toml"), Contains("from = 30") && Contains("to = 30"));
+  CHECK(run_luxodus(folder, "check " + scene).code == 0);
+  folder.write("alone.fds", "&HEAD CHID='alone' /\n&TIME T_END=25 /\n&MESH /\n");
+  const Outcome alone = run_luxodus(folder, "import fds " + in_folder(folder, "alone.fds") +
+                                                " --out " + in_folder(folder, "alone"));
+  CHECK_THAT(alone.out, Contains("not there at 25s"));
 }
 
 TEST_CASE("a time that no scene and no pack can have is rejected", "[program][fds]") {

@@ -76,13 +76,15 @@ std::string described(const char* kind, const FdsTitle& title, const Box& box) {
 /// Notes "the obstruction "x" is driven by the device "y": it stands as at the start", once for the
 /// copies of one group.
 void note_driven(const char* kind, const FdsTitle& title, const Box& box, const FdsCourse& course,
-                 std::set<std::string>& told, FireBuilding& out) {
-  if (course.driven_by.empty() || !told.insert(kind + title.handle).second) return;
-  out.notes.push_back(
-      fmt::format("{} is driven by {}: it is taken as at the start, {}; --without \"{}\" takes it "
-                  "away",
-                  described(kind, title, box), course.driven_by,
-                  course.at_start ? "there" : "not there", excerpt(title.handle)));
+                 const FdsInputOptions& options, std::set<std::string>& told, FireBuilding& out) {
+  if (course.driven_by.empty() || is_left_out(title, options) ||
+      !told.insert(kind + title.handle).second)
+    return;
+  out.notes.push_back(fmt::format(
+      "{} is driven by {}: it is taken as at the start, {}", described(kind, title, box),
+      course.driven_by,
+      course.at_start ? fmt::format("there; --without \"{}\" takes it away", excerpt(title.handle))
+                      : "not there"));
 }
 
 }  // namespace
@@ -98,15 +100,16 @@ void add_bodies_and_notes(const FdsInput& input, const FdsInputOptions& options,
   std::set<std::string> told;
   out.notes.insert(out.notes.end(), input.notes.begin(), input.notes.end());
   for (const FdsObstruction& o : input.obstructions) {
-    note_driven("obstruction", o.title, o.box, o.course, told, out);
+    note_driven("obstruction", o.title, o.box, o.course, options, told, out);
     const std::string name = fds::scene_name(o.title.name, "obstruction");
     const bool told_already =
         std::find(out.absent.begin(), out.absent.end(), name) != out.absent.end();
     if (!is_there(o.title, o.course, options) && !told_already) out.absent.push_back(name);
   }
-  for (const FdsHole& h : input.holes) note_driven("hole", h.title, h.box, h.course, told, out);
+  for (const FdsHole& h : input.holes)
+    note_driven("hole", h.title, h.box, h.course, options, told, out);
   for (const FdsOpening& o : input.openings)
-    note_driven("opening", o.title, o.box, o.course, told, out);
+    note_driven("opening", o.title, o.box, o.course, options, told, out);
 }
 
 }  // namespace luxodus::fds_input

@@ -27,6 +27,8 @@ constexpr double rounded_ln_10 = 2.3, ln_10 = 2.302585092994046;
 constexpr double weakest_flame_kw_m3 = 2 * 1200.0 / 254;
 /// Rounding below zero in densities that FDS transports [1/m].
 constexpr float rounding_per_m = 1e-3F;
+/// Densities of smoke below this dim nothing: 1e-5 /m [kg/m3].
+constexpr double negligible_kg_m3 = 1e-9;
 /// The highest byte of Smoke3D.
 constexpr uint8_t highest_share = 254;
 
@@ -194,14 +196,15 @@ class FireReader {
   Result<std::vector<float>> smoke_nodes(const Mesh& mesh, const FrameFiles& files,
                                          const Frame& frame, const std::vector<uint8_t>& bytes) {
     if (files.format == SmokeFormat::opacity) return extinction_of_opacities(mesh, bytes);
-    const bool any = frame.highest > 0;
+    // Whatever bytes say of so little, it is nothing.
+    if (frame.highest < negligible_kg_m3) return values_of_shares(bytes, 0);
     const uint8_t most = bytes.empty() ? 0 : *std::max_element(bytes.begin(), bytes.end());
-    if (most != (any ? highest_share : 0))
+    if (most != highest_share)
       return problem_in(files.files[frame.file].string(),
-                        fmt::format("the highest byte at {:.6g} s is {}, and its file of sizes "
-                                    "(.sz) has {:g} as the highest value, which is byte {}: the "
-                                    "two files are of different runs",
-                                    frame.time_s, most, frame.highest, any ? highest_share : 0));
+                        fmt::format("the highest byte at {:.6g} s is {} instead of {}, which its "
+                                    "file of sizes (.sz) says is {:g} kg/m3: the two files are of "
+                                    "different runs",
+                                    frame.time_s, most, highest_share, frame.highest));
     return values_of_shares(bytes, frame.highest);
   }
 

@@ -162,8 +162,8 @@ Result<SmokeFormat> format_of(const RecordWalk& walk, int32_t word) {
   return problem_in(
       walk.path().string(),
       fmt::format("this is Smoke3D of format {}, and what its bytes mean is known of 0 and 1 only: "
-                  "take slices (&SLCF ... CELL_CENTERED=T), or write it by SMOKE3D_VERSION=1 of "
-                  "&DUMP",
+                  "take slices (&SLCF ... CELL_CENTERED=T), or let FDS write it with "
+                  "SMOKE3D_VERSION=1",
                   word));
 }
 

@@ -40,4 +40,83 @@ TEST_CASE("verdicts in simulated smoke say if the flames are missing from the sc
   CHECK(state.media[0].notes.back() == remark(RemarkId::fire_simulation, 60.0264, "Smoke3D"));
 }
 
+TEST_CASE("verdicts in smoke say if a state leaves out the light of flames", "[assess]") {
+  SceneDescription scene;
+  Medium smoke, flame;
+  smoke.name = "smoke";
+  smoke.optics.extinction.sigma_t = 0.5;
+  flame.name = "fl";
+  flame.kind = MediumKind::bounded;
+  flame.emission.emplace();
+  flame.emission->circuit = "gas";
+  scene.media = {smoke, flame};
+  const auto dimmed = [&](const Scenario& state) {
+    const AssessedState judged = state_of(scene, state, {});
+    for (const Remark& one : judged.warnings)
+      if (one.id == RemarkId::flame_dimmed) return true;
+    return false;
+  };
+  Scenario burning;
+  CHECK_FALSE(dimmed(burning));
+  Scenario off = burning;
+  off.emission_factor = 0;
+  CHECK(dimmed(off));
+  const Remark all_of_it = remark(RemarkId::flame_dimmed, 0.0, "fl");
+  const AssessedState judged = state_of(scene, off, {});
+  CHECK(std::count(judged.warnings.begin(), judged.warnings.end(), all_of_it) == 1);
+  off.emission_factor = 0.001;
+  CHECK(dimmed(off));
+  Scenario by_circuit = burning;
+  by_circuit.circuits = {{"gas", 0}};
+  CHECK(dimmed(by_circuit));
+  Scenario without_flame = burning;
+  without_flame.media = {{"fl", 0}};
+  CHECK(dimmed(without_flame));
+  // There is no fire in clear air.
+  off.media = {{"smoke", 0}};
+  CHECK_FALSE(dimmed(off));
+}
+
+TEST_CASE("the smoke of a state is that in the building where people look", "[assess]") {
+  // A room of 2 x 2 x 3 m; eyes at 1.2 and 1.65 m, a sign at 2.3 m. Cells of half a metre in z, the
+  // first column in the room, the second outside.
+  SceneDescription scene;
+  Object room;
+  room.mesh.positions = {{0, 0, 0}, {2, 2, 3}};
+  scene.objects = {room};
+  Medium smoke;
+  smoke.name = "smoke";
+  smoke.kind = MediumKind::data_set;
+  smoke.optics.extinction.sigma_t = 1;
+  smoke.data.nx = 2;
+  smoke.data.ny = 1;
+  smoke.data.nz = 6;
+  smoke.data.extent = {4, 2, 3};
+  for (int k = 0; k < 6; ++k) {
+    smoke.data.extinction.push_back(0.1F * static_cast<float>(k + 1));
+    smoke.data.extinction.push_back(50);
+  }
+  scene.media = {smoke};
+  const auto range = [&] {
+    const AssessedState state = state_of(scene, {}, {});
+    return std::pair(state.media.at(0).extinction_min, state.media.at(0).extinction_max);
+  };
+  // Nobody looks: all of the room.
+  CHECK(range().first == Approx(0.1));
+  CHECK(range().second == Approx(0.6));
+  EscapeRoute way;
+  way.path = {{0.5, 1, 0}, {1.5, 1, 0}};
+  scene.routes = {way};
+  scene.assessment.eye_heights_m = {1.2, 1.65};
+  Sign exit;
+  exit.frame.origin = {1.9, 1, 2.3};
+  scene.signs = {exit};
+  CHECK(range().first == Approx(0.3));
+  CHECK(range().second == Approx(0.5));
+  // Cells of a kilometre: the one in which the room lies.
+  scene.media[0].data.extent *= 1000.0;
+  CHECK(range().first == Approx(0.1));
+  CHECK(range().second == Approx(0.1));
+}
+
 }  // namespace luxodus

@@ -139,6 +139,7 @@ TEST_CASE("an object without an ID is named by its line and box, and can be left
   CHECK_THAT(both.notes[1], Contains("line 4") && Contains("\"d2\""));
   options.without = {"line 4"};
   CHECK(as_written(input, options).solids == 1);
+  CHECK(as_written(input, options).notes.size() == 1);
   options.without = {"line 5"};
   CHECK_THAT(exact_building(input, options).problem().text(), Contains("line 12"));
 }

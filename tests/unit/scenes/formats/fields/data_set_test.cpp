@@ -159,6 +159,15 @@ TEST_CASE("soot density becomes extinction by the mass extinction", "[format][da
   }
 }
 
+TEST_CASE("an NRRD with more samples than its header states is refused", "[format][nrrd]") {
+  const TemporaryFolder folder;
+  const std::vector<float> nine(9, 1);
+  check_refused(folder, "a.nrrd",
+                {"a row too many", nrrd_head + "\n" + bytes_of(nine), "sizes are not those"});
+  // A line end behind the samples is none.
+  CHECK(read_ok(folder.write("b.nrrd", nrrd_head + "\n" + bytes_of(six) + "\n")).data.nx == 3);
+}
+
 TEST_CASE("a large NRRD is read completely, in blocks", "[format][nrrd]") {
   const TemporaryFolder folder;
   std::vector<float> many(100 * 90 * 80);

@@ -10,9 +10,11 @@
 #include <sstream>
 
 #include "scenes/formats/fields/fds.hpp"
-#include "scenes/light/optics/media_set.hpp"
+#include "tests/unit/scenes/formats/fields/fire_depths.hpp"
 
 using namespace luxodus;
+using luxodus::test::compiled_smoke;
+using luxodus::test::depth_along;
 
 namespace {
 
@@ -58,37 +60,6 @@ LoadedFire fire_of(const std::string& name, double at_s, FireSource source) {
   return std::move(fire.value());
 }
 
-struct Resident {
-  const MediaSet& set;
-  const Brick& brick(int medium, int brick) { return set.brick(medium, brick); }
-};
-
-/// The smoke of a fire, compiled as a scene's.
-MediaSet compiled(const LoadedFire& fire) {
-  std::vector<Medium> media;
-  for (const FireGrid& grid : fire.grids) {
-    Medium m;
-    m.name = "smoke";
-    m.kind = MediumKind::data_set;
-    m.data = grid.data;
-    m.frame.origin = grid.origin;
-    media.push_back(std::move(m));
-  }
-  std::vector<MediumInput> inputs;
-  for (const Medium& m : media) inputs.push_back({&m, 1, nullptr});
-  auto set = MediaSet::compile(
-      inputs, 1, [](const Spectrum& s, int) { return s.value[0]; }, glm::dvec3(0));
-  REQUIRE(set.ok());
-  return std::move(set.value());
-}
-
-double depth(const MediaSet& set, const glm::dvec3& from, const glm::dvec3& to) {
-  Resident bricks{set};
-  const double length = glm::length(to - from);
-  return optical_depth<MediaNeed::general>(set, 0, Vec3(from), Vec3((to - from) / length),
-                                           static_cast<Real>(length), bricks);
-}
-
 struct Distances {
   std::vector<double> relative;
   double most() const { return *std::max_element(relative.begin(), relative.end()); }
@@ -105,10 +76,10 @@ Distances distances(const std::string& name, FireSource source, const std::strin
   std::map<double, MediaSet> at;
   for (auto& row : table(fds_results / name / (name + "_lines.csv"))) {
     const double t = row["t"], wanted = row[column];
-    if (at.count(t) == 0) at.emplace(t, compiled(fire_of(name, t, source)));
+    if (at.count(t) == 0) at.emplace(t, compiled_smoke(fire_of(name, t, source)));
     if (wanted < 0.05) continue;
     const double found =
-        depth(at.at(t), {row["x0"], row["y0"], row["z0"]}, {row["x1"], row["y1"], row["z1"]});
+        depth_along(at.at(t), {row["x0"], row["y0"], row["z0"]}, {row["x1"], row["y1"], row["z1"]});
     out.relative.push_back(std::abs(found - wanted) / wanted);
   }
   REQUIRE_FALSE(out.relative.empty());
@@ -218,8 +189,8 @@ TEST_CASE("the curtain of the corridor is solid until it vanishes at 40.06 s", "
   if (!results_are_there()) return;
   // x 10.6 to 10.8 m, z 2.2 to 3.0 m, in Smoke3D every 5 s.
   const auto inside = [](double at_s) {
-    const MediaSet set = compiled(fire_of("corridor", at_s, FireSource::smoke3d));
-    return depth(set, {10.7, 0.1, 2.9}, {10.7, 2.3, 2.9});
+    const MediaSet set = compiled_smoke(fire_of("corridor", at_s, FireSource::smoke3d));
+    return depth_along(set, {10.7, 0.1, 2.9}, {10.7, 2.3, 2.9});
   };
   CHECK(inside(40) == 0);
   CHECK(inside(60) > 0.5);
