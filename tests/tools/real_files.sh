@@ -104,7 +104,8 @@ def opened(file):
         for part in (str(file.parent) + "/", name + "/"):
             reason = reason.replace(part, "")
     state = ("opened" if code == 0 else "too late" if code is None else
-             "ended by signal %d" % -code if code < 0 else "refused")
+             "ended by signal %d" % -code if code < 0 else
+             "not tried" if "./setup.sh" in said else "refused")
     return Outcome(file, kind, state, reason, warnings, seconds, mebibytes)
 
 
@@ -119,7 +120,7 @@ for kind in dict.fromkeys(KINDS.values()):
     those = [o for o in outcomes if o.kind == kind]
     if not those:
         continue
-    bad = [o for o in those if o.state not in ("opened", "refused")]
+    bad = [o for o in those if o.state not in ("opened", "refused", "not tried")]
     wrong += bad
     print("%-12s %6d %7d %8d %7d %6d %9.1f %9.1f %11.0f" % (
         kind, len(those), sum(o.state == "opened" for o in those),
@@ -127,6 +128,9 @@ for kind in dict.fromkeys(KINDS.values()):
         sum(o.state == "opened" and bool(o.warnings) for o in those), len(bad),
         sum(o.seconds for o in those), max(o.seconds for o in those),
         max(o.mebibytes for o in those)))
+missing = [o for o in outcomes if o.state == "not tried"]
+if missing:  # a package of the program, which is no fault of the files
+    print("\nnot tried: %d files, because %s" % (len(missing), missing[0].reason))
 for state in ("refused", "wrong"):
     those = [o for o in outcomes if (o in wrong if state == "wrong" else o.state == state)]
     if those:

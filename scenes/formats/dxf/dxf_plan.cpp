@@ -155,7 +155,11 @@ class PlanReader {
     if (kind == "VIEWPORT") return;  // a window of a sheet of paper; each has one
     if (integer(record, 67, 0) == 1) return pass_over(kind, of_paper_);
     if (integer(record, 60, 0) == 1) return pass_over(kind, invisible_);
-    if (record.cut) too_many_ = true;
+    constexpr std::array<std::string_view, 8> read_kinds{
+        "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "LWPOLYLINE", "POLYLINE", "INSERT"};
+    if (std::find(read_kinds.begin(), read_kinds.end(), kind) == read_kinds.end())
+      return leave_out(kind);
+    too_many_ = too_many_ || record.cut;
     if (kind == "LINE") {
       add(layer_of(record), {point(record, 0), point(record, 1)});
     } else if (kind == "ARC" || kind == "CIRCLE") {
@@ -168,10 +172,8 @@ class PlanReader {
       take_light_polyline(record);
     } else if (kind == "POLYLINE") {
       begin_polyline(record);
-    } else if (kind == "INSERT") {
-      take_insert(record);
     } else {
-      leave_out(kind);
+      take_insert(record);
     }
   }
 
@@ -203,8 +205,8 @@ class PlanReader {
     const std::vector<double> knots = numbers(record, 40), weights = numbers(record, 41);
     const std::vector<glm::dvec2> corners = points(record, 10, 20), fit = points(record, 11, 21);
     std::vector<glm::dvec2> curve = b_spline(integer(record, 71, 3), knots, corners, weights);
-    if (curve.empty() && corners.empty() && fit.size() >= 2) {
-      // The curve through these points is not stated: lines between them are close to it.
+    if (curve.empty() && fit.size() >= 2) {
+      // No sound curve through these points is stated: lines between them are close to it.
       curve = fit;
       if ((integer(record, 70, 0) & 1) != 0) curve.push_back(fit.front());
     }
