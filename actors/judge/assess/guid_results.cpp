@@ -135,7 +135,8 @@ class PropertyRows {
   }
 
   void add_check(const Json& check) {
-    const std::string set = "Luxodus_" + text_in(check, "rule_set");
+    const std::string rules = text_in(check, "rule_set");
+    const std::string set = "Luxodus_" + (rules.empty() ? "Information" : rules);
     const std::string conditions = english_in(check, "conditions");
     const std::string name = text_in(check, "rule") + " " + text_in(check, "title") +
                              (conditions.empty() ? "" : ", " + conditions);

@@ -60,6 +60,11 @@ TEST_CASE("without GlobalIds there is no table of results by GlobalId", "[assess
 TEST_CASE("checks by GlobalId are properties with the measures of IFC", "[assess]") {
   Json assessment = small_assessment();
   assessment["checks"][0]["rule_set"] = "en1838-2024";
+  assessment["checks"].push_back({{"subject", subject_json({SubjectKind::open_area, "hall"})},
+                                  {"rule", "F1"},
+                                  {"rule_set", ""},
+                                  {"title", "one failed"},
+                                  {"verdict", "information"}});
   const auto table = property_sets_by_guid(assessment);
   REQUIRE(table);
   CHECK(table->text() ==
@@ -67,5 +72,6 @@ TEST_CASE("checks by GlobalId are properties with the measures of IFC", "[assess
         "L1,Luxodus_EmergencyLighting,EmergencyFlux,120,IfcLuminousFluxMeasure,lm\n"
         "R1,Luxodus_en1838-2024,E6 core: value,0.75,IfcIlluminanceMeasure,lx\n"
         "R1,Luxodus_en1838-2024,E6 core: limit,0.5,IfcIlluminanceMeasure,lx\n"
-        "R1,Luxodus_en1838-2024,E6 core: verdict,pass,IfcLabel,\"\"\n");
+        "R1,Luxodus_en1838-2024,E6 core: verdict,pass,IfcLabel,\"\"\n"
+        "R1,Luxodus_Information,F1 one failed: verdict,information,IfcLabel,\"\"\n");
 }
