@@ -276,7 +276,9 @@ class Assembly {
   void tell_of_shape(const IfcProduct& p, bool has_shape) {
     const std::string who =
         fmt::format("#{} ({}, \"{}\", {})", p.id, small(p.kind), as_name(p.name, ""), p.guid);
-    if (!has_shape && p.has_shape)
+    if (shapes_.nothing.contains(p.guid))
+      out_.unread.push_back(who + " is cut away entirely by its own half spaces");
+    else if (!has_shape && p.has_shape)
       out_.unread.push_back(who + " has a shape that gave no triangles");
     if (!p.has_shape && !p.other_shapes.empty())
       out_.unread.push_back(who + " has no body, only: " + as_name(p.other_shapes, ""));

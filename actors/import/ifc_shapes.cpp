@@ -244,7 +244,7 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
     const glm::dvec3 offset = to_z_up(UpAxis::y).vector(place->second);
     for (glm::dvec3& p : part.mesh.positions) p += offset;
   }
-  return IfcShapes{std::move(parts).value(), said.notes, said.uncut, {}};
+  return IfcShapes{std::move(parts).value(), said.notes, said.uncut, {}, {}};
 }
 
 }  // namespace luxodus

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct IfcShapes {
   std::vector<std::string> notes;      // messages about what could not be computed
   std::map<uint64_t, uint64_t> uncut;  // number of a product, of its openings that were not cut
   std::map<std::string, double> open;  // solids that are not closed: GlobalId, missing area [m2]
+  std::set<std::string> nothing;       // GlobalIds of solids that cut themselves away entirely
 };
 
 /// The beginning of the problem that a model without shapes is.

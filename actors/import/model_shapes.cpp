@@ -65,16 +65,31 @@ bool is_tested(const IfcProduct& product) {
 
 /// What is known of a model's solids before the library computes them.
 struct Expected {
-  std::map<uint64_t, double> volumes_m3;
+  std::map<uint64_t, IfcSolidVolume> volumes;
   std::map<std::string, uint64_t> solids;  // GlobalIds and numbers of the products to be tested
 
   /// Whether a shape has the volume that its solids have, where that is known.
   bool fits(uint64_t product, double volume_m3) const {
-    const auto known = volumes_m3.find(product);
-    return known == volumes_m3.end() ||
-           std::abs(volume_m3 - known->second) <= volume_tolerance * known->second;
+    const auto known = volumes.find(product);
+    return known == volumes.end() || known->second.has_openings ||
+           std::abs(volume_m3 - known->second.m3) <= volume_tolerance * known->second.m3;
+  }
+  /// Whether its own half spaces cut a product away entirely.
+  bool is_nothing(uint64_t product) const {
+    constexpr double nothing_m3 = 1e-9;
+    const auto known = volumes.find(product);
+    return known != volumes.end() && known->second.m3 < nothing_m3;
   }
 };
+
+/// Takes out what the library left of products that nothing is left of.
+void leave_out_nothing(IfcShapes& shapes, const Expected& expected) {
+  for (const auto& [guid, product] : expected.solids)
+    if (expected.is_nothing(product)) shapes.nothing.insert(guid);
+  std::erase_if(shapes.parts,
+                [&](const ImportedPart& part) { return shapes.nothing.contains(guid_of(part)); });
+  for (const std::string& guid : shapes.nothing) shapes.uncut.erase(expected.solids.at(guid));
+}
 
 /// The volume of each product; parts that are turned inside out count as well.
 std::map<std::string, double> volumes_of(const std::vector<ImportedPart>& parts) {
@@ -114,6 +129,7 @@ std::set<uint64_t> doubtful(IfcShapes& shapes, const Expected& expected) {
   std::set<uint64_t> out;
   for (const auto& [guid, product] : expected.solids) {
     const auto shape = whole.find(guid);
+    if (expected.is_nothing(product)) continue;
     if (shape == whole.end()) {
       out.insert(product);
       continue;
@@ -138,7 +154,7 @@ void add_notes(IfcShapes& shapes, const Expected& expected) {
     if (++told <= max_named)
       shapes.notes.push_back(
           fmt::format("#{} ({}) has a shape of {:.4g} m3, and solids of {:.4g} m3", product, guid,
-                      volume->second, expected.volumes_m3.at(product)));
+                      volume->second, expected.volumes.at(product).m3));
   }
   if (told > max_named)
     shapes.notes.push_back(
@@ -160,6 +176,7 @@ Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
   Expected expected{ifc_solid_volumes(input->file, model), {}};
   for (const IfcProduct& product : model.products)
     if (is_tested(product)) expected.solids.emplace(product.guid, product.id);
+  leave_out_nothing(out, expected);
   const std::set<uint64_t> again = doubtful(out, expected);
   if (const auto mended = ifc_mended_input(input->file, model, again)) {
     const std::vector<uint64_t> only(mended->products.begin(), mended->products.end());

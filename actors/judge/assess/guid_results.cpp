@@ -122,7 +122,7 @@ class PropertyRows {
 
   void add_check(const Check& check) {
     const Texts t = english();
-    const std::string set = "Luxodus_" + check.rule.set;
+    const std::string set = "Luxodus_" + (check.rule.set.empty() ? "Information" : check.rule.set);
     const std::string conditions = t.remarks(check.conditions);
     const std::string rule(name_of(check.rule.id));
     const std::string name =

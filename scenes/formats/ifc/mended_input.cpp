@@ -1,4 +1,7 @@
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <vector>
 
 #include "scenes/formats/ifc/shape_input.hpp"
 #include "scenes/formats/ifc/step_draft.hpp"
@@ -13,42 +16,97 @@ namespace {
 /// Points nearer to a plane than this are on it [m].
 constexpr double on_plane_m = 1e-6;
 
-/// Cuts the items of products.
+/// The parts of a mesh that share no vertices.
+std::vector<Mesh> separate_parts(const Mesh& mesh) {
+  std::vector<uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const glm::uvec3& t : mesh.triangles)
+    for (const uint32_t corner : {t.y, t.z}) parent[root(corner)] = root(t.x);
+  std::map<uint32_t, Mesh> parts;
+  std::vector<uint32_t> number(mesh.positions.size(), UINT32_MAX);
+  for (const glm::uvec3& t : mesh.triangles) {
+    Mesh& part = parts[root(t.x)];
+    glm::uvec3 corners;
+    for (glm::length_t i = 0; i < 3; ++i) {
+      if (number[t[i]] == UINT32_MAX) {
+        number[t[i]] = static_cast<uint32_t>(part.positions.size());
+        part.positions.push_back(mesh.positions[t[i]]);
+      }
+      corners[i] = number[t[i]];
+    }
+    part.triangles.push_back(corners);
+  }
+  std::vector<Mesh> out;
+  for (auto& [first, part] : parts) out.push_back(std::move(part));
+  return out;
+}
+
+/// Makes breps of the items of products. Parts that touch are items of their own, since the library
+/// would join them.
 class Mender {
  public:
   Mender(const StepFile& prepared, double metres_per_unit)
-      : graph_(prepared), draft_(prepared), one_place_(on_plane_m / metres_per_unit) {}
+      : graph_(prepared), draft_(prepared), one_place_(on_plane_m / metres_per_unit) {
+    for (const StepFile::Instance& instance : prepared.instances())
+      if (instance.type == "IFCSTYLEDITEM")
+        styles_.emplace(graph_.node(instance).reference(0), instance.id);
+  }
 
-  /// Whether an item of a body, or of what it maps, could be cut.
+  /// Whether an item of a body, or of what it maps, is a brep now.
   bool mend(const StepNode& shape) {
     bool any = false;
     for (const uint64_t representation : shape.references(2))
-      for (const uint64_t item : graph_.node(representation).references(3))
-        any = mend_item(graph_.node(item), 0) || any;
+      any = mend_representation(representation, 0) || any;
     return any;
   }
 
   const StepDraft& draft() const { return draft_; }
 
  private:
-  bool mend_item(const StepNode& item, int depth) {
-    if (item.is("IFCMAPPEDITEM") && depth < 4) {
-      bool any = false;
-      for (const uint64_t id : graph_.follow(graph_.follow(item, 0), 1).references(3))
-        any = mend_item(graph_.node(id), depth + 1) || any;
-      return any;
-    }
+  bool mend_representation(uint64_t id, int depth) {
+    if (const auto known = done_.find(id); known != done_.end()) return known->second;
+    bool& any = done_[id];
+    std::string more;
+    for (const uint64_t item : graph_.node(id).references(3))
+      any = mend_item(graph_.node(item), depth, more) || any;
+    const auto parameters = draft_.parameters(id);
+    if (more.empty() || parameters.size() < 4 || parameters[3].size() < 2) return any;
+    std::vector<std::string> words(parameters.begin(), parameters.end());
+    words[3].insert(words[3].size() - 1, more);
+    draft_.replace(id, std::string(draft_.type(id)), joined_parameters(words));
+    return any;
+  }
+
+  bool mend_item(const StepNode& item, int depth, std::string& more) {
+    if (item.is("IFCMAPPEDITEM"))
+      return depth < 4 && mend_representation(graph_.follow(item, 0).reference(1), depth + 1);
     if (item.is("IFCFACETEDBREP")) return false;  // as it is
-    if (draft_.type(item.id()) == "IFCFACETEDBREP") return true;
     const auto mesh = step_solid(graph_, item, one_place_);
     if (!mesh || mesh->triangles.empty()) return false;
-    draft_.replace(item.id(), "IFCFACETEDBREP", brep_body(draft_, *mesh));
+    const std::vector<Mesh> parts = separate_parts(*mesh);
+    draft_.replace(item.id(), "IFCFACETEDBREP", brep_body(draft_, parts.front()));
+    for (size_t i = 1; i < parts.size(); ++i) {
+      const uint64_t brep = draft_.add("IFCFACETEDBREP", brep_body(draft_, parts[i]));
+      more += ",#" + std::to_string(brep);
+      if (const auto style = styles_.find(item.id()); style != styles_.end()) {
+        const auto parameters = draft_.parameters(style->second);
+        std::vector<std::string> words(parameters.begin(), parameters.end());
+        words[0] = "#" + std::to_string(brep);
+        draft_.add("IFCSTYLEDITEM", joined_parameters(words));
+      }
+    }
     return true;
   }
 
   StepGraph graph_;
   StepDraft draft_;
   double one_place_;
+  std::map<uint64_t, uint64_t> styles_;  // of items
+  std::map<uint64_t, bool> done_;        // representations
 };
 
 /// The linear scale of a mapped item's target; nothing if it has several.
@@ -79,14 +137,15 @@ std::optional<double> item_volume(StepGraph& graph, const StepNode& item, double
 
 }  // namespace
 
-std::map<uint64_t, double> ifc_solid_volumes(const StepFile& prepared, const IfcModel& model) {
+std::map<uint64_t, IfcSolidVolume> ifc_solid_volumes(const StepFile& prepared,
+                                                     const IfcModel& model) {
   StepGraph graph(prepared);
   const double unit = model.metres_per_unit;
   std::set<uint64_t> with_openings;
   for (const IfcProduct& product : model.products) with_openings.insert(product.voids);
-  std::map<uint64_t, double> out;
+  std::map<uint64_t, IfcSolidVolume> out;
   for (const IfcProduct& product : model.products) {
-    if (!product.is_solid || with_openings.contains(product.id)) continue;
+    if (!product.is_solid) continue;
     double sum = 0;
     bool known = true;
     for (const uint64_t representation : graph.follow(graph.node(product.id), 6).references(2))
@@ -95,7 +154,9 @@ std::map<uint64_t, double> ifc_solid_volumes(const StepFile& prepared, const Ifc
         known = known && volume;
         sum += volume.value_or(0);
       }
-    if (known && sum > 0) out.emplace(product.id, sum * unit * unit * unit);
+    if (known)
+      out.emplace(product.id,
+                  IfcSolidVolume{sum * unit * unit * unit, with_openings.contains(product.id)});
   }
   return out;
 }

@@ -31,9 +31,15 @@ struct IfcShapeInput {
 /// Errors: as StepFile::of.
 Result<IfcShapeInput> ifc_shape_input(const StepFile& file, const IfcModel& model);
 
-/// Volumes [m3] of products whose solids are known here, by their numbers; of none with openings.
+struct IfcSolidVolume {
+  double m3 = 0;              // 0: its own half spaces cut it away entirely
+  bool has_openings = false;  // which are not taken off
+};
+
+/// Volumes of products whose solids are known here, by their numbers.
 /// `prepared`: the file of ifc_shape_input.
-std::map<uint64_t, double> ifc_solid_volumes(const StepFile& prepared, const IfcModel& model);
+std::map<uint64_t, IfcSolidVolume> ifc_solid_volumes(const StepFile& prepared,
+                                                     const IfcModel& model);
 
 struct IfcMendedInput {
   StepFile file;

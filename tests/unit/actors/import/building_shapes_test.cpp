@@ -103,6 +103,35 @@ TEST_CASE("walls that half spaces cut along an edge come closed, with their wind
   CHECK(volume(lost) == Approx(1.2).epsilon(1e-4));
 }
 
+TEST_CASE("a wall that is cut in parts has all of them, and one cut away entirely none",
+          "[import]") {
+  if (!can_compute()) return;
+  const TemporaryFolder folder;
+  StepText text;
+  // The bounded half space takes the upper triangle of the left half alone.
+  const auto lower_left = [&] {
+    const std::string plane = text.add("IFCPLANE(" + text.axes({0, 0, 3000}, {-1, 0, 1}) + ")");
+    const std::string outline = text.polyline({{-10, -10}, {2000, -10}, {2000, 210}, {-10, 210}});
+    return text.add("IFCPOLYGONALBOUNDEDHALFSPACE(" + plane + ",.T.," + text.axes({0, 0, 0}) + "," +
+                    outline + ")");
+  };
+  const std::string tall = text.box({0, 0, 0}, {4000, 200, 5000});
+  const std::string stepped = text.wall(text.without(tall, lower_left()));
+  const std::string gone = text.wall(
+      text.without(text.box({0, 0, 0}, {4000, 200, 3000}), text.above({0, 0, 3000}, {1, 0, 0})),
+      {0, 3000, 0});
+  const Building building = building_of_text(text.text(), folder / "t.ifc");
+  CHECK(building.open_solids.empty());
+  // Of the left half, 2 m long, the part above a line from 3 m to 5 m remains.
+  CHECK(std::abs(signed_volume_of(part_with(building, StepText::guid_of(stepped)).mesh)) ==
+        Approx(0.2 * (4 * 5 - 2 * 4)).epsilon(1e-3));
+  REQUIRE(building.storeys.size() == 1);
+  CHECK(building.storeys[0].parts.size() == 1);
+  REQUIRE(building.unread.size() == 1);
+  CHECK(building.unread[0].find(StepText::guid_of(gone)) != std::string::npos);
+  CHECK(building.unread[0].find("cut away entirely") != std::string::npos);
+}
+
 TEST_CASE("walls far from the origin in their points keep their thickness", "[import]") {
   if (!can_compute()) return;
   const TemporaryFolder folder;

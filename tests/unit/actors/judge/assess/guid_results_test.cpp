@@ -78,6 +78,9 @@ TEST_CASE("without GlobalIds there is no table of results by GlobalId", "[assess
 TEST_CASE("checks by GlobalId are properties with the measures of IFC", "[assess]") {
   AssessmentRecord assessment = small_assessment();
   assessment.checks[0].rule.set = "en1838-2024";
+  CheckRecord& failure =
+      assessment.checks.emplace_back(check(RuleId::F1, {SubjectKind::open_area, "hall"}));
+  failure.verdict = CheckVerdict::information;
   const auto table = property_sets_by_guid(assessment);
   const std::string title = "E6 " + english().rule_title("E6");
   REQUIRE(table);
@@ -87,5 +90,6 @@ TEST_CASE("checks by GlobalId are properties with the measures of IFC", "[assess
         "R1,Luxodus_en1838-2024," +
             title + ": value,0.75,IfcIlluminanceMeasure,lx\n" + "R1,Luxodus_en1838-2024," + title +
             ": limit,0.5,IfcIlluminanceMeasure,lx\n" + "R1,Luxodus_en1838-2024," + title +
-            ": verdict,pass,IfcLabel,\"\"\n");
+            ": verdict,pass,IfcLabel,\"\"\n" + "R1,Luxodus_Information,F1 " +
+            english().rule_title("F1") + ": verdict,information,IfcLabel,\"\"\n");
 }
