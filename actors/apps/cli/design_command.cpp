@@ -13,6 +13,7 @@
 #include "actors/apps/cli/version.hpp"
 #include "actors/judge/design/binding_words.hpp"
 #include "actors/judge/design/design_files.hpp"
+#include "actors/judge/design/record_design.hpp"
 #include "actors/judge/design/sign_files.hpp"
 #include "actors/judge/design/smoke_section.hpp"
 #include "actors/judge/report/pdf.hpp"
@@ -102,14 +103,12 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
 }
 
 void print_because(const SceneDescription& scene, const DesignResult& result) {
-  const Json design = design_json(scene, result, "");
-  for (const std::string& words : because_words(Texts(Language::en), design))
+  for (const std::string& words : because_words(english(), record_of(scene, result, "")))
     std::printf("  %s\n", words.c_str());
 }
 
 void print_smoke(const DesignResult& result) {
-  const Json smoke = smoke_json(*result.smoke);
-  for (const std::string& words : smoke_words(Texts(Language::en), smoke))
+  for (const std::string& words : smoke_words(english(), record_of(*result.smoke)))
     std::printf("in smoke: %s\n", words.c_str());
   std::printf("%zu layouts judged in smoke in %.1f s, by %zu trace%s\n",
               result.smoke->layouts.size(), result.smoke->seconds, result.smoke->traces,

@@ -1,7 +1,5 @@
 #include "actors/judge/assess/assessment_files.hpp"
 
-#include <cmath>
-
 #include "actors/judge/assess/bcf_issues.hpp"
 #include "actors/judge/assess/guid_results.hpp"
 #include "actors/judge/assess/guidance_words.hpp"
@@ -15,43 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Fills a row; what is not known leaves its cell empty.
-class Row {
- public:
-  explicit Row(CsvTable& table) : table_(table) {}
-  void end() { table_.end_row(); }
+/// English sentences; none where there are no remarks.
+std::optional<std::string> said(const Remarks& remarks) {
+  return remarks.empty() ? std::nullopt : std::optional(english().remarks(remarks));
+}
 
-  template <class... Texts>
-  Row& texts(const Texts&... words) {
-    (table_.cell(std::string_view(words)), ...);
-    return *this;
-  }
-  template <class... Numbers>
-  Row& numbers(const Numbers&... values) {
-    (number(values), ...);
-    return *this;
-  }
-  Row& number(double value) {
-    std::isfinite(value) ? table_.cell(value) : table_.empty_cell();
-    return *this;
-  }
-  Row& number(const std::optional<double>& value) { return number(value.value_or(std::nan(""))); }
-  Row& text_if(bool known, std::string_view words) {
-    known ? table_.cell(words) : table_.empty_cell();
-    return *this;
-  }
-  Row& flag(bool value) {
-    table_.cell(value);
-    return *this;
-  }
-  Row& empty(size_t cells) {
-    for (size_t i = 0; i < cells; ++i) table_.empty_cell();
-    return *this;
-  }
-
- private:
-  CsvTable& table_;
-};
+std::optional<std::string> said(const std::optional<Remark>& remark) {
+  return remark ? said(Remarks{*remark}) : std::nullopt;
+}
 
 CsvTable checks_csv(const AssessmentRecord& assessment) {
   CsvTable table({"rule", "rule_set", "deviation", "edition", "clause", "status", "title",
@@ -60,29 +29,29 @@ CsvTable checks_csv(const AssessmentRecord& assessment) {
   const Texts t = english();
   for (const Check& check : assessment.checks) {
     const Rule& rule = check.rule;
-    Row(table)
-        .texts(name_of(rule.id), rule.set, rule.deviation, rule.edition, t.clause(rule))
-        .text_if(rule.status.has_value(), rule.status ? t.remark(*rule.status) : "")
-        .texts(t.rule_title(name_of(rule.id)), t.subject(check.subject),
-               t.remarks(check.conditions), name_of(check.verdict))
-        .number(check.value)
-        .texts(check.unit, check.at_least ? "at least" : "at most")
-        .numbers(check.limit, check.margin())
-        .text_if(!check.reasons.empty(), t.remarks(check.reasons))
-        .end();
+    table.row(name_of(rule.id), rule.set, rule.deviation, rule.edition, t.clause(rule),
+              said(rule.status), t.rule_title(name_of(rule.id)), t.subject(check.subject),
+              t.remarks(check.conditions), name_of(check.verdict), check.value, check.unit,
+              check.at_least ? "at least" : "at most", check.limit, check.margin(),
+              said(check.reasons));
   }
   return table;
 }
 
-void add_seen(const SeenRecord& seen, const SightRecord& sight, Row& row) {
-  const LookRecord& look = seen.look;
-  row.numbers(look.legend_cd_m2.value, look.legend_cd_m2.error, look.ground_cd_m2.value,
+/// From the luminances on.
+void add_seen(const SightRecord& sight, CsvTable& table) {
+  const bool seen = sight.line_of_sight.seen;
+  if (!sight.seen) {
+    for (int i = 0; i < 11; ++i) table.empty_cell();
+    table.cell(seen).empty_cell();
+    return;
+  }
+  const LookRecord& look = sight.seen->look;
+  table.cells(look.legend_cd_m2.value, look.legend_cd_m2.error, look.ground_cd_m2.value,
               look.ground_cd_m2.error, look.surround_cd_m2.value, look.transmission,
               look.reading_level.value, look.reading_level.error, look.seeing_level.value,
-              seen.extinction_per_m)
-      .flag(seen.jin.legible)
-      .flag(sight.line_of_sight.seen)
-      .flag(seen.viewing_distance.within);
+              sight.seen->extinction_per_m, sight.seen->jin.legible, seen,
+              sight.seen->viewing_distance.within);
 }
 
 CsvTable sights_csv(const AssessmentRecord& assessment) {
@@ -115,22 +84,16 @@ CsvTable sights_csv(const AssessmentRecord& assessment) {
                   "line_of_sight.seen",
                   "viewing_distance.within"});
   for (const SightRecord& sight : assessment.sights) {
-    const auto& seen = sight.seen;
-    const bool other = seen && seen->other_light;
-    Row row(table);
-    row.texts(english().subject(sight.from))
-        .numbers(sight.along_m, sight.stands_for.value, sight.eye_height_m, sight.eye.x,
-                 sight.eye.y, sight.eye.z)
-        .texts(sight.sign, name_of(sight.verdict))
-        .text_if(seen.has_value(), seen && seen->in_new_light ? "new" : "aged")
-        .text_if(other, other ? name_of(seen->other_light->verdict) : "")
-        .text_if(sight.reason.has_value(), sight.reason ? english().remark(*sight.reason) : "")
-        .numbers(sight.distance_m, sight.from_normal_deg, sight.from_gaze_deg);
-    if (seen)
-      add_seen(*seen, sight, row);
-    else
-      row.empty(11).flag(sight.line_of_sight.seen).empty(1);
-    row.end();
+    table.cells(english().subject(sight.from), sight.along_m, sight.stands_for.value,
+                sight.eye_height_m, sight.eye.x, sight.eye.y, sight.eye.z, sight.sign,
+                name_of(sight.verdict));
+    std::optional<std::string> light, other;
+    if (sight.seen) light = sight.seen->in_new_light ? "new" : "aged";
+    if (sight.seen && sight.seen->other_light) other = name_of(sight.seen->other_light->verdict);
+    table.cells(light, other, said(sight.reason), sight.distance_m, sight.from_normal_deg,
+                sight.from_gaze_deg);
+    add_seen(sight, table);
+    table.end_row();
   }
   return table;
 }

@@ -35,45 +35,26 @@ std::map<std::pair<std::string_view, std::string>, ModelThing> things_by_subject
   return out;
 }
 
-/// A cell that is empty where there are no words.
-void put(CsvTable& table, std::string_view words) {
-  if (words.empty())
-    table.empty_cell();
-  else
-    table.cell(words);
-}
-
-void put(CsvTable& table, const std::optional<double>& value) {
-  if (value)
-    table.cell(*value);
-  else
-    table.empty_cell();
-}
-
-void put(CsvTable& table, std::initializer_list<std::string_view> all) {
-  for (const std::string_view words : all) put(table, words);
+std::optional<std::string> some(const std::string& words) {
+  return words.empty() ? std::nullopt : std::optional(words);
 }
 
 void put_check(CsvTable& table, const ModelThing& thing, const Check& check) {
   const Texts t = english();
-  table.cell(thing.guid).cell(thing.kind).cell(thing.name);
-  put(table, {check.rule.set, name_of(check.rule.id), check.rule.edition, t.clause(check.rule),
-              t.rule_title(name_of(check.rule.id)), t.remarks(check.conditions)});
-  put(table, check.value);
-  put(table, {check.unit, check.at_least ? "at least" : "at most"});
-  put(table, check.limit);
-  put(table, {name_of(check.verdict), t.remarks(check.reasons)});
-  table.end_row();
+  const Rule& rule = check.rule;
+  table.row(thing.guid, thing.kind, thing.name, some(rule.set), name_of(rule.id),
+            some(rule.edition), some(t.clause(rule)), t.rule_title(name_of(rule.id)),
+            some(t.remarks(check.conditions)), check.value, some(check.unit),
+            check.at_least ? "at least" : "at most", check.limit, name_of(check.verdict),
+            some(t.remarks(check.reasons)));
 }
 
 /// A row of a value that no rule judges.
-void put_information(CsvTable& table, const ModelThing& thing, std::string_view title, double value,
+void put_information(CsvTable& table, const ModelThing& thing, const char* title, double value,
                      const std::string& unit, const std::string& reason) {
-  table.cell(thing.guid).cell(thing.kind).cell(thing.name);
-  put(table, {"", "", "", "", title, ""});
-  put(table, value);
-  put(table, {unit, "", "", "information", reason});
-  table.end_row();
+  const std::optional<std::string> none;
+  table.row(thing.guid, thing.kind, thing.name, none, none, none, none, title, none, value, unit,
+            none, none, "information", some(reason));
 }
 
 void put_flux(CsvTable& table, const ModelThing& thing,

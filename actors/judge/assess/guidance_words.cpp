@@ -22,22 +22,10 @@ std::string walk_words(const GuidedWalk& walk, double speed_m_s) {
   if (walk.end == GuidedWalk::End::arrives)
     return out + fmt::format("guided to the end, at {:.3g} s", walk.at_s);
   return out + fmt::format("{} at {:.3g} m, at {:.3g} s",
-                           walk.end == GuidedWalk::End::lost ? "guidance is lost"
-                                                       : "still on the way after the last state,",
+                           walk.end == GuidedWalk::End::lost
+                               ? "guidance is lost"
+                               : "still on the way after the last state,",
                            walk.at_m, walk.at_s);
-}
-
-/// FDS's visibility at a place in a state, and its verdict there.
-void add_fds(const RouteOverTime& route, size_t state, size_t place, CsvTable& table) {
-  if (!route.has_fds()) {
-    table.empty_cell().empty_cell();
-    return;
-  }
-  if (const auto& metres = route.visibility_m[state][place])
-    table.cell(*metres);
-  else
-    table.empty_cell();
-  table.cell(name_of(route.by_fds.at[state][place]));
 }
 
 }  // namespace
@@ -48,16 +36,14 @@ CsvTable guidance_csv(const OverTime& over_time) {
   for (const RouteOverTime& route : over_time.routes)
     for (size_t t = 0; t < over_time.states.size(); ++t)
       for (size_t i = 0; i < route.guided.along_m.size(); ++i) {
-        table.cell(route.route)
-            .cell(route.eye_height_m)
-            .cell(over_time.states[t].at_s)
-            .cell(route.guided.along_m[i])
-            .cell(name_of(route.guided.at[t][i]))
-            .cell(route.signs[t][i])
-            .cell(name_of(route.by_jin.at[t][i]))
-            .cell(name_of(route.by_line.at[t][i]));
-        add_fds(route, t, i, table);
-        table.end_row();
+        std::optional<double> visibility_m;
+        std::optional<std::string> fds;
+        if (route.has_fds()) visibility_m = route.visibility_m[t][i];
+        if (route.has_fds()) fds = name_of(route.by_fds.at[t][i]);
+        table.row(route.route, route.eye_height_m, over_time.states[t].at_s,
+                  route.guided.along_m[i], name_of(route.guided.at[t][i]), route.signs[t][i],
+                  name_of(route.by_jin.at[t][i]), name_of(route.by_line.at[t][i]), visibility_m,
+                  fds);
       }
   return table;
 }

@@ -50,12 +50,20 @@ struct LeftOut {
   size_t no_ceiling = 0, in_bodies = 0, near_walls = 0, near_signs = 0, keep_out = 0, taken = 0;
   size_t too_low = 0, glaring = 0;  // candidates
   size_t no_wall = 0;               // places for luminaires on walls without a flat wall
+  static constexpr void fields(auto&& field, auto& m) {
+    field("no_ceiling", m.no_ceiling)("in_bodies", m.in_bodies)("near_walls", m.near_walls);
+    field("near_signs", m.near_signs)("keep_out", m.keep_out)("too_low", m.too_low);
+    field("glaring", m.glaring)("no_wall", m.no_wall);
+  }
 };
 
 /// A type without candidates: its battery does not last as long as the rules require.
 struct UnusedType {
   std::string name, rules;  // the rule set that requires more
   double lasts_h = 0, asked_h = 0;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("name", m.name)("lasts_h", m.lasts_h)("asked_h", m.asked_h)("rules", m.rules);
+  }
 };
 
 /// An English sentence that says so.

@@ -23,6 +23,9 @@ inline constexpr double never_dark_lx = 0.1;
 struct BetweenPoints {
   size_t added = 0;  // points added since a minimum did not hold there
   double least = std::numeric_limits<double>::infinity();  // least share of the planned value
+  static constexpr void fields(auto&& field, auto& m) {
+    field("added", m.added)("least", m.least, {.or_null = true});
+  }
 };
 
 /// A point at which a minimum does not hold with luminaires off their places.

@@ -43,12 +43,19 @@ struct HiddenByFurniture {
   std::string rule;  // "E6", or several: "E6, E6d"
   Subject subject;
   size_t points = 0;  // points that furniture hides from all candidates
+  static constexpr void fields(auto&& field, auto& m) {
+    field("rule", m.rule)("subject", m.subject)("points", m.points);
+  }
 };
 
 /// Effect of moving luminaires.
 struct Refined {
   size_t moved = 0;              // number of luminaires
   double before = 0, after = 0;  // least share of the planned value over all minima
+  static constexpr void fields(auto&& field, auto& m) {
+    field("moved", m.moved)("least_before", m.before, {.or_null = true});
+    field("least_after", m.after, {.or_null = true});
+  }
 };
 
 /// Saving without one demand, with what a sentence needs.

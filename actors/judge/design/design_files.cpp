@@ -7,13 +7,11 @@
 #include <set>
 
 #include "actors/judge/assess/record_assessment.hpp"
-#include "actors/judge/design/binding_words.hpp"
 #include "actors/judge/design/design_page.hpp"
+#include "actors/judge/design/record_design.hpp"
 #include "actors/judge/design/sign_files.hpp"
-#include "actors/judge/design/smoke_section.hpp"
 #include "actors/judge/report/hand_over.hpp"
 #include "actors/judge/report/plan_svg.hpp"
-#include "actors/judge/texts/remark_json.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
@@ -32,105 +30,8 @@ std::string percent(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
 
-const char* word_of(LayoutEnd end) {
-  switch (end) {
-    case LayoutEnd::optimal:
-      return "optimal";
-    case LayoutEnd::within_gap:
-      return "within the gap";
-    case LayoutEnd::out_of_time:
-      return "out of time";
-    case LayoutEnd::interrupted:
-      return "interrupted";
-    case LayoutEnd::infeasible:
-      return "infeasible";
-    case LayoutEnd::unknown:
-      return "unknown";
-  }
-  return "";
-}
-
-const char* word_of(DemandKind kind) {
-  constexpr std::array<const char*, 10> words{"minimum", "mean", "early",    "spread", "two",
-                                              "failed",  "near", "vertical", "face",   "flight"};
-  return words[static_cast<size_t>(kind)];
-}
-
 std::string type_of(const SceneDescription& scene, const PlacedLuminaire& one) {
   return one.is_new() ? scene.design->types[one.candidate.type].name : "";
-}
-
-Json groups_json(const DesignResult& result) {
-  Json out = Json::array();
-  for (size_t i = 0; i < result.groups.size(); ++i) {
-    const ConstraintGroup& group = result.groups[i];
-    out.push_back({{"kind", word_of(group.kind)},
-                   {"rule", name_of(group.rule)},
-                   {"subject", subject_json(group.subject)},
-                   {"asked", number_json(group.asked)},
-                   {"words", demand_words(group)},
-                   {"least_share", number_json(result.tightest[i])},
-                   {"share_of_bound", number_json(result.answer.share_of_group.empty()
-                                                      ? 0
-                                                      : result.answer.share_of_group[i])}});
-  }
-  return out;
-}
-
-Json luminaires_json_of(const SceneDescription& scene, const DesignResult& result) {
-  Json out = Json::array();
-  for (const PlacedLuminaire& one : result.luminaires)
-    out.push_back({{"name", one.name},
-                   {"type", type_of(scene, one)},
-                   {"is_new", one.is_new()},
-                   {"moved_from", one.moved_from ? vector_json(*one.moved_from) : Json()},
-                   {"position", vector_json(one.candidate.position)},
-                   {"mount", one.candidate.aim ? "wall"
-                             : one.is_placed() ? "ceiling"
-                                               : ""},
-                   {"rotation_deg", number_json(one.candidate.rotation_deg)}});
-  return out;
-}
-
-Json types_json(const SceneDescription& scene, const DesignResult& result) {
-  Json out = Json::array();
-  const auto& types = scene.design->types;
-  for (size_t i = 0; i < types.size(); ++i) {
-    const auto count = std::count_if(
-        result.luminaires.begin(), result.luminaires.end(),
-        [&](const PlacedLuminaire& one) { return one.is_new() && one.candidate.type == i; });
-    out.push_back({{"name", types[i].name},
-                   {"count", count},
-                   {"cost", number_json(types[i].cost)},
-                   {"watts", number_json(types[i].watts)},
-                   {"battery", battery_class(types[i])},
-                   {"emergency_lm", number_json(types[i].emitter.emergency_flux /
-                                                types[i].emitter.emergency_ageing)}});
-  }
-  return out;
-}
-
-Json others_json(const DesignResult& result) {
-  Json out = Json::array();
-  for (const Check& check : result.others)
-    out.push_back({{"rule", name_of(check.rule.id)},
-                   {"subject", subject_json(check.subject)},
-                   {"title", english().rule_title(name_of(check.rule.id))},
-                   {"reasons", remarks_json(check.reasons)}});
-  return out;
-}
-
-Json tolerance_json(const PlaceTolerance& tolerance) {
-  Json demands = Json::array();
-  for (const ShareOffPlace& one : tolerance.demands)
-    demands.push_back({{"kind", word_of(one.kind)},
-                       {"rule", name_of(one.rule)},
-                       {"subject", subject_json(one.subject)},
-                       {"share", number_json(one.share)},
-                       {"place", vector_json(one.place)}});
-  return {{"distance_m", number_json(tolerance.distance_m)},
-          {"holds", tolerance.holds()},
-          {"demands", std::move(demands)}};
 }
 
 Result<void> write_plans(const fs::path& folder, const AssessmentRecord& a, Language language) {
@@ -447,77 +348,10 @@ CsvTable schedule_csv(const DesignResult& result) {
   return table;
 }
 
-Json design_json(const SceneDescription& scene, const DesignResult& result,
-                 const std::string& version) {
-  const LayoutAnswer& answer = result.answer;
-  const LeftOut& left = result.left_out;
-  const CheckCounts counts = counts_of(result.assessment.checks);
-  Json out = {{"format", design_format},
-              {"program", "luxodus " + version},
-              {"scene", {{"name", scene.name}, {"title", scene.title}}},
-              {"outcome", {{"end", word_of(answer.end)}, {"words", outcome_words(scene, result)}}}};
-  out["objective"] = {{"kind", objective_words[static_cast<size_t>(scene.design->objective)]},
-                      {"value", number_json(answer.objective)},
-                      {"bound", number_json(answer.bound)},
-                      {"gap", number_json(answer.gap())},
-                      {"greedy", answer.greedy ? number_json(answer.greedy_objective) : Json()}};
-  out["settings"] = {{"margin", number_json(scene.design->margin)},
-                     {"failure", failure_words[static_cast<size_t>(scene.design->failure)]},
-                     {"spacing_m", number_json(scene.design->spacing_m)}};
-  Json codes = Json::array();
-  for (const CodeChoice& choice : result.assessment.state.codes)
-    codes.push_back(named(choice.set).id);
-  out["settings"]["rules"] = std::move(codes);
-  out["candidates"] = {{"places", result.places},
-                       {"luminaires", result.candidates},
-                       {"points", result.points},
-                       {"left_out",
-                        {{"no_ceiling", left.no_ceiling},
-                         {"in_bodies", left.in_bodies},
-                         {"near_walls", left.near_walls},
-                         {"near_signs", left.near_signs},
-                         {"keep_out", left.keep_out},
-                         {"too_low", left.too_low},
-                         {"glaring", left.glaring},
-                         {"no_wall", left.no_wall}}}};
-  out["hidden_by_furniture"] = Json::array();
-  for (const HiddenByFurniture& one : result.hidden)
-    out["hidden_by_furniture"].push_back(
-        {{"rule", one.rule}, {"subject", subject_json(one.subject)}, {"points", one.points}});
-  out["types_not_placed"] = Json::array();
-  for (const UnusedType& one : result.unused)
-    out["types_not_placed"].push_back({{"name", one.name},
-                                       {"lasts_h", number_json(one.lasts_h)},
-                                       {"asked_h", number_json(one.asked_h)},
-                                       {"rules", one.rules}});
-  out["unlit_flights"] = result.unlit_stair_flights;
-  out["luminaires"] = luminaires_json_of(scene, result);
-  out["removed"] = result.removed;
-  out["types"] = types_json(scene, result);
-  out["constraints"] = groups_json(result);
-  out["because"] = because_json(result);
-  out["checks"] = {{"pass", count_of(counts, CheckVerdict::pass)},
-                   {"fail", count_of(counts, CheckVerdict::fail)},
-                   {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
-                   {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
-  out["failing_otherwise"] = others_json(result);
-  if (result.refined)
-    out["refined"] = {{"moved", result.refined->moved},
-                      {"least_before", number_json(result.refined->before)},
-                      {"least_after", number_json(result.refined->after)}};
-  out["between_points"] = {{"added", result.between.added},
-                           {"least", number_json(result.between.least)}};
-  if (result.tolerance && result.tolerance->distance_m > 0)
-    out["off_place"] = tolerance_json(*result.tolerance);
-  if (result.signs) out["signs"] = signs_json(scene, *result.signs);
-  if (result.smoke) out["smoke"] = smoke_json(*result.smoke);
-  return out;
-}
-
 Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
                           const DesignResult& result, Language language,
                           const std::string& version) {
-  const Json json = design_json(scene, result, version);
+  const DesignRecord record = record_of(scene, result, version);
   const AssessmentRecord assessed = record_of(*result.variant, result.assessment, version);
   if (auto ok = write_plans(folder / "plans", assessed, language); !ok) return ok.problem();
   if (auto ok = write_csv(folder / "luminaires.csv", schedule_csv(result)); !ok)
@@ -526,10 +360,10 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
   if (result.signs) signs = signs_csv(scene, *result.signs);
   if (auto ok = write_or_remove(folder / "signs.csv", signs); !ok) return ok.problem();
   if (auto ok = remove_page_as_pdf(folder); !ok) return ok.problem();
-  if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
+  if (auto ok = write_json(folder / "design.json", design_json(record)); !ok) return ok.problem();
   if (auto ok = write_file_atomically(
           folder / "design.html",
-          design_page(json, assessed, layout_plans(result, version), language));
+          design_page(record, assessed, layout_plans(result, version), language));
       !ok)
     return ok.problem();
   if (auto ok = remove_alternatives(folder); !ok) return ok.problem();

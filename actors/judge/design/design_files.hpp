@@ -9,11 +9,8 @@
 #include "actors/judge/design/design.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/csv.hpp"
-#include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
-
-inline constexpr const char* design_format = "luxodus design 2";
 
 /// A layout of the result as a variant to be written into `folder`, from which it includes the
 /// scene. Requires everywhere: a result with a layout.
@@ -21,9 +18,6 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
                          const PlacedLayout& layout, const std::filesystem::path& folder);
 
 CsvTable schedule_csv(const DesignResult& result);
-
-Json design_json(const SceneDescription& scene, const DesignResult& result,
-                 const std::string& version);
 
 /// Writes all files and removes alternatives of an earlier design. Errors: as
 /// write_file_atomically; a folder that cannot be created.

@@ -1,5 +1,5 @@
 // The page of a design: the result and its bound, plan, schedule, binding demands, and failing
-// checks that no luminaire decides. Made of the JSON of the design and of its assessment. Pure
+// checks that no luminaire decides. Made of the records of the design and of its assessment. Pure
 // function; any thread.
 #pragma once
 
@@ -7,11 +7,10 @@
 
 #include "actors/judge/design/side_by_side.hpp"
 #include "actors/judge/texts/texts.hpp"
-#include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
 
-std::string design_page(const Json& design, const AssessmentRecord& assessment,
+std::string design_page(const DesignRecord& design, const AssessmentRecord& assessment,
                         const std::vector<LayoutPlan>& plans, Language language);
 
 }  // namespace luxodus

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "actors/judge/assess/record_assessment.hpp"
-#include "actors/judge/design/design.hpp"
 #include "actors/judge/report/html.hpp"
 #include "actors/judge/report/plan_svg.hpp"
 
@@ -14,15 +13,13 @@ namespace {
 /// Two of these fit side by side on a page.
 constexpr PlanSize small_plan{128, 84};
 
-std::string caption(const Texts& t, const Json& design, const std::string& name) {
-  const Json& smoke = design["smoke"];
-  for (const Json& one : smoke["layouts"])
-    if (text_in(one, "name") == name)
-      return t.say(
-          name == text_in(smoke, "recommended") ? "design.side_recommended" : "design.side_layout",
-          name, one["luminaires"].get<int64_t>(),
-          t.word("design.objective", text_in(design["objective"], "kind")),
-          t.number(one["objective"].get<double>(), 4));
+std::string caption(const Texts& t, const DesignRecord& design, const std::string& name) {
+  const SmokeRecord& smoke = *design.smoke;
+  for (const SmokeLayoutRecord& one : smoke.layouts)
+    if (one.name == name)
+      return t.say(name == smoke.recommended ? "design.side_recommended" : "design.side_layout",
+                   name, one.luminaires, t.word("design.objective", design.objective.kind),
+                   t.number(one.objective, 4));
   return name;
 }
 
@@ -38,8 +35,9 @@ std::vector<LayoutPlan> layout_plans(const DesignResult& result, const std::stri
   return out;
 }
 
-std::string side_by_side(const Texts& t, const Json& design, const std::vector<LayoutPlan>& plans) {
-  if (plans.empty()) return "";
+std::string side_by_side(const Texts& t, const DesignRecord& design,
+                         const std::vector<LayoutPlan>& plans) {
+  if (plans.empty() || !design.smoke) return "";
   std::string out = "<h2>" + escaped(t("design.side_heading")) + "</h2>\n" +
                     paragraph(t("design.side_note"), "note");
   const size_t levels = Schedule(plans.front().drawn).levels();

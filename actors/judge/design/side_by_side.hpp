@@ -4,16 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "actors/judge/design/design_record.hpp"
 #include "actors/judge/record/assessment_record.hpp"
 #include "actors/judge/texts/texts.hpp"
-#include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
 
-struct DesignResult;
-
-/// A layout with the record of an assessment for its plan: its own luminaires, and the building and symbols
-/// of the first layout.
+/// A layout with the record of an assessment for its plan: its own luminaires, and the building and
+/// symbols of the first layout.
 struct LayoutPlan {
   std::string name;
   AssessmentRecord drawn;
@@ -23,6 +21,7 @@ struct LayoutPlan {
 std::vector<LayoutPlan> layout_plans(const DesignResult& result, const std::string& version);
 
 /// A section of the page, by level; "" without plans.
-std::string side_by_side(const Texts& t, const Json& design, const std::vector<LayoutPlan>& plans);
+std::string side_by_side(const Texts& t, const DesignRecord& design,
+                         const std::vector<LayoutPlan>& plans);
 
 }  // namespace luxodus

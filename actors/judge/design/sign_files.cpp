@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "actors/judge/design/wall_probe.hpp"
+#include "actors/results/formats/json.hpp"
 #include "runtime/core/output_text.hpp"
 #include "scenes/emergency/way.hpp"
 
@@ -114,54 +115,6 @@ CsvTable signs_csv(const SceneDescription& scene, const SignPlan& plan) {
     table.end_row();
   }
   return table;
-}
-
-Json signs_json(const SceneDescription& scene, const SignPlan& plan) {
-  Json placed = Json::array();
-  for (const PlacedSign& one : plan.signs) {
-    Json ways = Json::array();
-    for (const LeadsTo& way : one.leads_to)
-      ways.push_back({{"route", way.route}, {"arrow", arrow_word(way.arrow)}});
-    placed.push_back({{"name", one.name},
-                      {"type", type_name(scene, one)},
-                      {"is_new", one.is_new()},
-                      {"mount", one.is_new() ? mount_word(one) : std::string_view()},
-                      {"position", vector_json(one.spot.position)},
-                      {"facing", vector_json(one.spot.facing)},
-                      {"leads_to", std::move(ways)}});
-  }
-  Json types = Json::array();
-  const auto& kinds = scene.design->sign_types;
-  for (size_t i = 0; i < kinds.size(); ++i)
-    types.push_back({{"name", kinds[i].name},
-                     {"count", std::count_if(plan.signs.begin(), plan.signs.end(),
-                                             [&](const PlacedSign& one) { return one.type == i; })},
-                     {"cost", number_json(kinds[i].cost)},
-                     {"watts", number_json(kinds[i].watts)}});
-  Json unguided = Json::array();
-  for (const UnguidedPlaces& one : plan.unguided)
-    unguided.push_back({{"route", one.route},
-                        {"places", one.places},
-                        {"of", one.of},
-                        {"behind_furniture", one.behind_furniture},
-                        {"behind_signs", one.behind_signs},
-                        {"first", vector_json(one.first)}});
-  const SignsLeftOut& left = plan.left_out;
-  return {
-      {"placed", std::move(placed)},
-      {"removed", plan.removed},
-      {"types", std::move(types)},
-      {"objective", {{"value", number_json(plan.objective)}, {"bound", number_json(plan.bound)}}},
-      {"candidates",
-       {{"places", plan.places},
-        {"signs", plan.candidates},
-        {"left_out",
-         {{"no_room", left.no_room},
-          {"keep_out", left.keep_out},
-          {"near_signs", left.near_signs},
-          {"forbidden", left.forbidden},
-          {"unseen", left.unseen}}}}},
-      {"unguided", std::move(unguided)}};
 }
 
 std::vector<std::string> sign_words(const SignPlan& plan) {

@@ -1,4 +1,4 @@
-// The signs of a design on disk: as changes of a variant, as a schedule, as JSON, and as sentences.
+// The signs of a design on disk: as changes of a variant, as a schedule, and as sentences.
 // Pure functions; any thread.
 #pragma once
 
@@ -8,7 +8,6 @@
 #include "actors/judge/design/sign_plan.hpp"
 #include "actors/judge/design/smoke_stage.hpp"
 #include "actors/results/formats/csv.hpp"
-#include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
 
@@ -21,7 +20,6 @@ std::string toml_metres(double value);
 std::string sign_changes(const SceneDescription& scene, const SignPlan& plan);
 
 CsvTable signs_csv(const SceneDescription& scene, const SignPlan& plan);
-Json signs_json(const SceneDescription& scene, const SignPlan& plan);
 
 /// English sentences: number of signs, whether fewer would do, and places without guidance.
 std::vector<std::string> sign_words(const SignPlan& plan);

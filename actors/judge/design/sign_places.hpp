@@ -32,6 +32,10 @@ struct SignsLeftOut {
   size_t near_signs = 0;  // a sign of the scene hangs there
   size_t forbidden = 0;   // the sign by itself violates a rule
   size_t unseen = 0;      // it guides nobody on a route
+  static constexpr void fields(auto&& field, auto& m) {
+    field("no_room", m.no_room)("keep_out", m.keep_out)("near_signs", m.near_signs);
+    field("forbidden", m.forbidden)("unseen", m.unseen);
+  }
 };
 
 /// Places for signs with the size of `sign`. `bare`, `furnished`: the building without and with

@@ -40,6 +40,11 @@ struct UnguidedPlaces {
   bool behind_furniture = false;  // a candidate is visible from all of them without furniture
   bool behind_signs = false;      // a sign is visible from all of them without the other new signs
   glm::dvec3 first{0};            // the first of these places, on the floor
+  static constexpr void fields(auto&& field, auto& m) {
+    field("route", m.route)("places", m.places)("of", m.of);
+    field("behind_furniture", m.behind_furniture)("behind_signs", m.behind_signs);
+    field("first", m.first);
+  }
 };
 
 struct SignPlan {

@@ -16,6 +16,7 @@ namespace luxodus {
 /// end excludes 2.3 %, as two standard errors do.
 struct ShareDifference {
   double least = -1, most = 1;  // [1]
+  static constexpr void fields(auto&& field, auto& m) { field("least", m.least)("most", m.most); }
 
   /// `rounding` is the tolerance for equal shares.
   bool surely_more() const { return least > rounding; }

@@ -19,6 +19,7 @@ inline constexpr double ahead_deg = 60;
 /// read in `least`, and as read in `most`.
 struct LegibleShare {
   double least = 0, most = 0;  // [1]
+  static constexpr void fields(auto&& field, auto& m) { field("least", m.least)("most", m.most); }
 };
 
 /// What is read from a place on a route.

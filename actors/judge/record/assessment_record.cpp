@@ -5,20 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actors/judge/texts/remark_json.hpp"
+#include "actors/judge/record/record_forms.hpp"
 
 namespace luxodus {
 
-// ---- forms of types that list no fields --------------------------------------------------------
-
-template <>
-inline constexpr size_t names_of<Operation> = operation_words.size();
-template <>
-inline constexpr size_t names_of<CheckVerdict> = std::tuple_size_v<CheckCounts>;
-template <>
-inline constexpr size_t names_of<SightVerdict> = 6;
-template <>
-inline constexpr size_t names_of<GuidedWalk::End> = 3;
 template <>
 inline constexpr size_t members_to_list<CheckRecord> = members_of<Check>() - 1 + members_of<Rule>();
 template <>  // warnings are those of the assessment
@@ -29,44 +19,6 @@ template <>
 inline constexpr size_t members_to_list<WalkRecord> = members_of<GuidedWalk>();
 template <>
 inline constexpr size_t members_to_list<GuidedTimeRecord> = 3;
-
-template <>
-struct JsonForm<Remark> {
-  static Json write(const Remark& remark, const FieldForm&) { return remark_json(remark); }
-  static Result<void> read(const Json& json, Remark& out, const JsonPlace& at, const FieldForm&) {
-    return taken(read_remark(json), out, at);
-  }
-  template <class T>
-  static Result<void> taken(Result<T> read, T& out, const JsonPlace& at) {
-    if (!read) return problem(at.text() + ": " + read.problem().what);
-    out = std::move(read).value();
-    return {};
-  }
-};
-
-template <>
-struct JsonForm<Subject> {
-  static Json write(const Subject& subject, const FieldForm&) { return subject_json(subject); }
-  static Result<void> read(const Json& json, Subject& out, const JsonPlace& at, const FieldForm&) {
-    return JsonForm<Remark>::taken(read_subject(json), out, at);
-  }
-};
-
-/// {"value", "standard_error", "unit"}; either number may be unknown.
-template <>
-struct JsonForm<Uncertain> {
-  static Json write(const Uncertain& u, const FieldForm& form) {
-    return measured_json(u.value, u.error, form.unit);
-  }
-  static Result<void> read(const Json& json, Uncertain& out, const JsonPlace& at,
-                           const FieldForm& form) {
-    if (auto ok = read_plain(json, out.value, at, {.unit = form.unit, .or_null = true}); !ok)
-      return ok;
-    const auto error = json.find("standard_error");
-    if (error == json.end()) return no_key(at, "standard_error");
-    return read_plain(*error, out.error, JsonPlace{&at, "standard_error"}, {.or_null = true});
-  }
-};
 
 /// A letter for each place.
 template <>
@@ -284,7 +236,7 @@ Json backdrops_json(const std::vector<BackdropRecord>& backdrops) {
 
 Result<AssessmentRecord> assessment_of(const Json& json) {
   if (text_in(json, "format") != assessment_format)
-    return problem(std::string("is not a \"") + assessment_format + "\"");
+    return problem(std::string("its \"format\" is not \"") + assessment_format + "\"");
   AssessmentRecord out;
   if (auto ok = read_fields(json, out); !ok) return ok.problem();
   if (auto ok = check_plan(out); !ok) return ok.problem();

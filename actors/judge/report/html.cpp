@@ -95,6 +95,10 @@ std::string number_cell(const Texts& texts, const std::optional<double>& value,
   return value ? number_cell(texts, *value, unit, digits) : no_number_cell();
 }
 
+std::string number_cell(const Texts& texts, size_t count, const std::string& unit, int digits) {
+  return number_cell(texts, static_cast<double>(count), unit, digits);
+}
+
 std::string fixed_cell(const Texts& texts, double value, int decimals) {
   return html_cell(texts.fixed(value, decimals), "n");
 }
@@ -108,6 +112,17 @@ std::string verdict_mark(const Texts& texts, const char* list, const std::string
 
 std::string verdict_cell(const Texts& texts, const char* list, const std::string& verdict) {
   return html_cell(verdict_mark(texts, list, verdict));
+}
+
+std::string count_chips(const Texts& texts, const CountsRecord& counts) {
+  std::string out;
+  for (const auto& [count, verdict] :
+       {std::pair(counts.pass, CheckVerdict::pass), std::pair(counts.fail, CheckVerdict::fail),
+        std::pair(counts.not_assessed, CheckVerdict::not_assessed),
+        std::pair(counts.not_verified, CheckVerdict::not_verified)})
+    out += "<span>" + std::to_string(count) + " " +
+           verdict_mark(texts, "verdict", name_of(verdict)) + "</span>\n";
+  return out;
 }
 
 std::string table(const Texts& texts, const std::vector<const char*>& columns,

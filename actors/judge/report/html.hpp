@@ -31,6 +31,8 @@ std::string number_cell(const Texts& texts, double value, const std::string& uni
                         int digits = 3);
 std::string number_cell(const Texts& texts, const std::optional<double>& value,
                         const std::string& unit = "", int digits = 3);
+std::string number_cell(const Texts& texts, size_t count, const std::string& unit = "",
+                        int digits = 3);
 /// A dash: no number.
 std::string no_number_cell();
 std::string fixed_cell(const Texts& texts, double value, int decimals);
@@ -39,6 +41,9 @@ std::string unit_text(const Texts& texts, const std::string& unit);
 /// The symbol and the word of a verdict. `list`: "verdict" or "sight".
 std::string verdict_mark(const Texts& texts, const char* list, const std::string& verdict);
 std::string verdict_cell(const Texts& texts, const char* list, const std::string& verdict);
+
+/// The counts of checks by their verdicts, each with its mark.
+std::string count_chips(const Texts& texts, const CountsRecord& counts);
 
 /// A table whose head is repeated on every page; "" without rows.
 /// `columns`: keys of texts; `widths`: a share of the page for each [%].

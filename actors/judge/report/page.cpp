@@ -131,18 +131,11 @@ std::string verdict_box(const PageParts& parts) {
                             : counts.not_verified > 0 ? CheckVerdict::not_verified
                             : counts.not_assessed > 0 ? CheckVerdict::not_assessed
                                                       : CheckVerdict::information;
-  std::string chips;
-  for (const auto& [count, verdict] :
-       {std::pair(counts.pass, CheckVerdict::pass), std::pair(counts.fail, CheckVerdict::fail),
-        std::pair(counts.not_assessed, CheckVerdict::not_assessed),
-        std::pair(counts.not_verified, CheckVerdict::not_verified)})
-    chips += "<span>" + std::to_string(count) + " " + verdict_mark(t, "verdict", name_of(verdict)) +
-             "</span>\n";
   std::string out =
       "<div class=\"box\"><svg viewBox=\"-1.25 -1.25 2.5 2.5\" "
       "aria-hidden=\"true\">" +
       verdict_shape(name_of(mark), 0, 0, 1) + "</svg><div><p class=\"words\">" +
-      escaped(headline(t, parts.a)) + "</p><p class=\"chips\">" + chips + "</p>";
+      escaped(headline(t, parts.a)) + "</p><p class=\"chips\">" + count_chips(t, counts) + "</p>";
   if (!parts.a.sights.empty()) {
     out += "<p>" + escaped(t("verdict.sights")) + "</p><p class=\"chips\">";
     for (const auto& [verdict, times] : parts.a.sight_counts)

@@ -210,7 +210,7 @@ std::string not_assessed_section(const PageParts& parts) {
   std::string rows;
   for (const NotAssessedRecord& one : parts.a.not_assessed)
     rows += "<tr>" + cell(one.words(t)) + html_cell(why_html(t, one)) +
-            number_cell(t, static_cast<double>(one.count), "", 9) + "</tr>\n";
+            number_cell(t, one.count, "", 9) + "</tr>\n";
   std::string out = paragraph(t("not_assessed.lead"));
   out += rows.empty() ? paragraph(t("not_assessed.nothing"))
                       : table(t, {"column.what", "column.why", "column.count"}, {38, 52, 10}, rows);

@@ -417,7 +417,7 @@ std::string grid_values(const PlanLevel& level, const Sheet& sheet, const Texts&
     const double x = sheet.x(p.x), y = sheet.y(p.y);
     const std::pair cell{std::lround(x / 4.2), std::lround(y / 2.2)};
     if (!taken.emplace(cell, true).second) continue;
-    out += text_at(x, y + 0.6, texts.number(p[3], 2), "text-anchor=\"middle\"", 1.6);
+    out += text_at(x, y + 0.6, texts.number(lux, 2), "text-anchor=\"middle\"", 1.6);
   }
   return out + "</g>\n";
 }

@@ -6,25 +6,6 @@ namespace luxodus {
 
 namespace {
 
-void number(CsvTable& table, const std::optional<double>& value) {
-  if (value)
-    table.cell(*value);
-  else
-    table.empty_cell();
-}
-
-void numbers(CsvTable& table, std::initializer_list<std::optional<double>> values) {
-  for (const auto& value : values) number(table, value);
-}
-
-void texts(CsvTable& table, std::initializer_list<std::string_view> words) {
-  for (const std::string_view one : words) table.cell(one);
-}
-
-void place(CsvTable& table, const glm::dvec3& p) {
-  numbers(table, {p.x, p.y, p.z});
-}
-
 /// Places of some of these things: "1.000 2.000 3.000; ...".
 template <class Thing>
 std::string places_of(const std::vector<Thing>& things, const std::vector<size_t>& members) {
@@ -44,14 +25,11 @@ CsvTable luminaires_csv(const AssessmentRecord& a, const Schedule& schedule) {
                   "maintenance factor [1]", "end of duration factor [1]"});
   for (size_t i = 0; i < a.luminaires.size(); ++i) {
     const LuminaireRecord& one = a.luminaires[i];
-    texts(table, {one.name, schedule.type_of(i).letter, one.product, one.file, one.operation,
-                  one.circuit});
-    place(table, one.position);
-    numbers(table,
-            {schedule.above_floor(one.position.z), one.mains_flux.value, one.emergency_flux.value});
-    table.cell(one.mains_flux.unit);
-    numbers(table, {one.maintenance_factor, one.end_of_duration_factor});
-    table.end_row();
+    const glm::dvec3& p = one.position;
+    table.row(one.name, schedule.type_of(i).letter, one.product, one.file, one.operation,
+              one.circuit, p.x, p.y, p.z, schedule.above_floor(p.z), one.mains_flux.value,
+              one.emergency_flux.value, one.mains_flux.unit, one.maintenance_factor,
+              one.end_of_duration_factor);
   }
   return table;
 }
@@ -80,19 +58,15 @@ CsvTable signs_csv(const AssessmentRecord& a, const Schedule& schedule) {
                   "emergency green [cd/m2]"});
   for (size_t i = 0; i < a.signs.size(); ++i) {
     const SignRecord& one = a.signs[i];
-    table.cell(static_cast<int64_t>(i + 1));
-    texts(table, {one.name, one.file, one.text, one.lighting});
-    table.cell(one.double_sided).cell(one.circuit);
-    place(table, one.position);
-    table.cell(schedule.above_floor(one.position.z));
-    place(table, one.facing);
-    numbers(table, {one.width_m, one.height_m, one.smallest_detail_m});
+    const glm::dvec3 &p = one.position, &f = one.facing;
+    table.cells(static_cast<int64_t>(i + 1), one.name, one.file, one.text, one.lighting,
+                one.double_sided, one.circuit, p.x, p.y, p.z, schedule.above_floor(p.z), f.x, f.y,
+                f.z, one.width_m, one.height_m, one.smallest_detail_m);
     if (one.face)
-      numbers(table, {one.face->mains_white_cd_m2, one.face->mains_green_cd_m2,
-                      one.face->emergency_white_cd_m2, one.face->emergency_green_cd_m2});
+      table.row(one.face->mains_white_cd_m2, one.face->mains_green_cd_m2,
+                one.face->emergency_white_cd_m2, one.face->emergency_green_cd_m2);
     else
-      table.empty_cell().empty_cell().empty_cell().empty_cell();
-    table.end_row();
+      table.empty_cell().empty_cell().empty_cell().empty_cell().end_row();
   }
   return table;
 }
@@ -100,20 +74,15 @@ CsvTable signs_csv(const AssessmentRecord& a, const Schedule& schedule) {
 CsvTable materials_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"kind", "type or numbers", "item", "operation or lighting", "count [1]",
                   "places x y z [m]"});
-  const auto add = [&](std::initializer_list<std::string_view> words, size_t count,
-                       const std::string& places) {
-    texts(table, words);
-    table.cell(static_cast<int64_t>(count)).cell(places).end_row();
-  };
   for (const LuminaireType& type : schedule.types())
-    add({"luminaire", type.letter, product_of(*type.one), type.one->operation}, type.members.size(),
-        places_of(a.luminaires, type.members));
+    table.row("luminaire", type.letter, product_of(*type.one), type.one->operation,
+              static_cast<int64_t>(type.members.size()), places_of(a.luminaires, type.members));
   for (const SignType& type : schedule.sign_types()) {
     std::string marks;
     for (const size_t i : type.members) marks += (marks.empty() ? "" : " ") + std::to_string(i + 1);
     const SignRecord& one = *type.one;
-    add({"sign", marks, one.file.empty() ? one.text : one.file, one.lighting}, type.members.size(),
-        places_of(a.signs, type.members));
+    table.row("sign", marks, one.file.empty() ? one.text : one.file, one.lighting,
+              static_cast<int64_t>(type.members.size()), places_of(a.signs, type.members));
   }
   return table;
 }
@@ -125,17 +94,12 @@ CsvTable places_csv(const AssessmentRecord& a) {
   const Texts t = english();
   for (const Check& check : a.checks) {
     const std::string_view rule = name_of(check.rule.id);
-    texts(table, {t.subject(check.subject), rule, check.rule.edition, t.clause(check.rule),
-                  t.rule_title(rule), t.remarks(check.conditions), name_of(check.verdict)});
-    numbers(table, {check.value, check.limit});
-    texts(table, {check.at_least ? "at least" : "at most", check.unit});
-    number(table, check.margin());
-    if (check.worst)
-      place(table, *check.worst);
-    else
-      table.empty_cell().empty_cell().empty_cell();
-    texts(table, {t.remarks(check.rule.sources), t.remarks(check.reasons)});
-    table.end_row();
+    std::optional<double> x, y, z;
+    if (check.worst) x = check.worst->x, y = check.worst->y, z = check.worst->z;
+    table.row(t.subject(check.subject), rule, check.rule.edition, t.clause(check.rule),
+              t.rule_title(rule), t.remarks(check.conditions), name_of(check.verdict), check.value,
+              check.limit, check.at_least ? "at least" : "at most", check.unit, check.margin(), x,
+              y, z, t.remarks(check.rule.sources), t.remarks(check.reasons));
   }
   return table;
 }
@@ -144,9 +108,8 @@ CsvTable points_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"level", "floor [m]", "x [m]", "y [m]", "z [m]", "illuminance [lx]"});
   for (size_t i = 0; i < a.plan.levels.size(); ++i)
     for (const PlanPoint& p : a.plan.levels[i].points) {
-      table.cell(static_cast<int64_t>(i + 1)).cell(schedule.floor(i));
-      place(table, p.place);
-      table.cell(p.lux).end_row();
+      table.row(static_cast<int64_t>(i + 1), schedule.floor(i), p.place.x, p.place.y, p.place.z,
+                p.lux);
     }
   return table;
 }

@@ -15,27 +15,11 @@ Json remark_json(const Remark& remark) {
           {"text", english().remark(remark)}};
 }
 
-Json remarks_json(const Remarks& remarks) {
-  Json out = Json::array();
-  for (const Remark& one : remarks) out.push_back(remark_json(one));
-  return out;
-}
-
 Json subject_json(const Subject& subject) {
   Json out = {{"kind", name_of(subject.kind)}, {"name", subject.name}};
   if (subject.kind == SubjectKind::emphasis)
     out["emphasis"] = emphasis_words.at(static_cast<size_t>(subject.emphasis));
   out["text"] = english().subject(subject);
-  return out;
-}
-
-std::string english_in(const Json& json, const char* key) {
-  const auto at = json.find(key);
-  if (at == json.end()) return "";
-  if (at->is_object()) return text_in(*at, "text");
-  std::string out;
-  if (at->is_array())
-    for (const Json& one : *at) out += (out.empty() ? "" : "; ") + text_in(one, "text");
   return out;
 }
 
@@ -57,17 +41,6 @@ Result<Remark> read_remark(const Json& json) {
       out.arguments.emplace_back(one.text());
     else
       return problem("an argument of the remark \"" + name + "\" is neither a text nor a number");
-  }
-  return out;
-}
-
-Result<Remarks> read_remarks(const Json& json) {
-  if (!json.is_array()) return problem("remarks are not a list");
-  Remarks out;
-  for (const Json& one : json) {
-    auto remark = read_remark(one);
-    if (!remark) return remark.problem();
-    out.push_back(std::move(remark).value());
   }
   return out;
 }

@@ -32,8 +32,23 @@ class CsvTable {
   CsvTable& cell(bool yes) { return cell(std::string_view(yes ? "yes" : "no")); }
   /// A cell without a value.
   CsvTable& empty_cell();
+  template <class T>
+  CsvTable& cell(const std::optional<T>& value) {
+    return value ? cell(*value) : empty_cell();
+  }
+  /// A cell for each value.
+  template <class... Values>
+  CsvTable& cells(const Values&... values) {
+    (cell(values), ...);
+    return *this;
+  }
   /// Requires: as many cells since the last row as there are columns, else std::logic_error.
   void end_row();
+  /// A row with a cell for each value. Requires: as end_row.
+  template <class... Values>
+  void row(const Values&... values) {
+    cells(values...).end_row();
+  }
 
   /// Requires: no row begun and not ended, else std::logic_error.
   const std::string& text() const;

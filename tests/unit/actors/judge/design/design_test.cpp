@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "actors/judge/design/design_files.hpp"
+#include "actors/judge/design/record_design.hpp"
 #include "runtime/core/random.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
@@ -163,7 +164,7 @@ TEST_CASE("equal scenes and seeds give equal files", "[design]") {
   const auto text = [&] {
     const DesignResult result = designed(file);
     return variant_text(*scene, result, result, folder.path()) +
-           json_text(design_json(*scene, result, "1"));
+           json_text(design_json(record_of(*scene, result, "1")));
   };
   CHECK(text() == text());
 }
@@ -372,9 +373,9 @@ TEST_CASE("the shortfall off the places is written if a place tolerance is set",
   DesignResult result = designed(file);
   const auto scene = test::described(file);
   REQUIRE(result.tolerance);
-  CHECK_FALSE(design_json(*scene, result, "1").contains("off_place"));
+  CHECK_FALSE(record_of(*scene, result, "1").off_place);
   result.tolerance->distance_m = 0.25;
-  CHECK(design_json(*scene, result, "1").contains("off_place"));
+  CHECK(record_of(*scene, result, "1").off_place);
 }
 
 }  // namespace luxodus

@@ -5,6 +5,7 @@
 
 #include "actors/judge/assess/record_assessment.hpp"
 #include "actors/judge/design/design_page.hpp"
+#include "actors/judge/design/record_design.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/judge/design/design_scenes.hpp"
@@ -46,7 +47,7 @@ TEST_CASE("a page has the plans of all layouts that were judged, each with its l
   const AssessmentRecord assessed = record_of(*best.variant, best.assessment, "1");
   CHECK(layout_plans(best, "1").empty());
   const std::string alone =
-      design_page(design_json(*scene, best, "1"), assessed, layout_plans(best, "1"), Language::en);
+      design_page(record_of(*scene, best, "1"), assessed, layout_plans(best, "1"), Language::en);
   CHECK(alone.find("side by side") == std::string::npos);
 
   best.smoke.emplace();
@@ -55,7 +56,7 @@ TEST_CASE("a page has the plans of all layouts that were judged, each with its l
   const auto plans = layout_plans(best, "1");
   REQUIRE(plans.size() == 2);
   const Texts texts(Language::en);
-  const std::string section = side_by_side(texts, design_json(*scene, best, "1"), plans);
+  const std::string section = side_by_side(texts, record_of(*scene, best, "1"), plans);
   CHECK(count_of(section, "<figure>") == 2);
   CHECK(section.find("A, recommended: ") != std::string::npos);
   CHECK(section.find(fmt::format("B: {} new luminaires", more.luminaires.size())) !=

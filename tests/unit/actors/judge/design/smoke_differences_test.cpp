@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "actors/judge/design/layout_groups.hpp"
+#include "actors/judge/design/record_design.hpp"
 #include "actors/judge/design/smoke_race.hpp"
 #include "actors/judge/design/smoke_section.hpp"
 #include "runtime/core/random.hpp"
@@ -233,13 +234,14 @@ TEST_CASE("a layout that is certainly read less than one of no higher cost is el
   stage.layouts = {a, less, more, open};
   CHECK(stage.recommended().name == "C");
   const Texts english(Language::en);
-  const Json smoke = smoke_json(stage);
+  DesignRecord record;
+  record.objective.kind = "number";
+  record.smoke = record_of(stage);
   std::string told;
-  for (const std::string& line : smoke_words(english, smoke)) told += line + "\n";
+  for (const std::string& line : smoke_words(english, *record.smoke)) told += line + "\n";
   INFO(told);
   CHECK(told.find("+2.0 to +10.0 % beside layout A: it is recommended") != std::string::npos);
-  const std::string page =
-      smoke_section(english, {{"objective", {{"kind", "number"}}}, {"smoke", smoke}});
+  const std::string page = smoke_section(english, record);
   CHECK(page.find("−10.0 to −2.0 %") != std::string::npos);
   CHECK(page.find("−5.0 to +5.0 %") != std::string::npos);
 }

@@ -6,11 +6,13 @@
 #include <fstream>
 
 #include "actors/judge/design/design_files.hpp"
+#include "actors/judge/design/record_design.hpp"
 #include "actors/judge/design/smoke_section.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/replaced.hpp"
 #include "tests/kit/room_texts.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/judge/design/design_scenes.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
 #include "tests/unit/actors/judge/design/smoke_corridor.hpp"
 
@@ -82,7 +84,7 @@ TEST_CASE("the sentences on layouts in smoke follow from their results", "[desig
   const Texts english(Language::en);
   const auto told = [&](std::vector<JudgedLayout> layouts) {
     std::string out;
-    for (const std::string& line : smoke_words(english, smoke_json(stage_of(std::move(layouts)))))
+    for (const std::string& line : smoke_words(english, record_of(stage_of(std::move(layouts)))))
       out += line + "\n";
     return out;
   };
@@ -111,7 +113,7 @@ TEST_CASE("the sentences on layouts in smoke follow from their results", "[desig
   veiled.objective = 4;  // no more luminaires, so no conclusion
   CHECK(told({a, veiled}).find("veils") == std::string::npos);
   for (const Language language : {Language::de, Language::fr})
-    CHECK(smoke_words(Texts(language), smoke_json(stage_of({a, veiled}))).size() >= 2);
+    CHECK(smoke_words(Texts(language), record_of(stage_of({a, veiled}))).size() >= 2);
   // What ended the elimination rounds, and what is still open.
   SmokeStage ended = stage_of({a, judged_as("B", 4, 0.4, 0.7), judged_as("C", 5, 0.1, 0.2)});
   ended.layouts[0].is_open = ended.layouts[1].is_open = true;
@@ -120,7 +122,7 @@ TEST_CASE("the sentences on layouts in smoke follow from their results", "[desig
         {RaceEnd::rounds, "After the last round of paths (1) layouts A, B cannot be told apart"},
         {RaceEnd::interrupted, "Interrupted before"}}) {
     ended.end = end;
-    CHECK(smoke_words(english, smoke_json(ended)).back().find(words) != std::string::npos);
+    CHECK(smoke_words(english, record_of(ended)).back().find(words) != std::string::npos);
   }
 }
 
@@ -157,8 +159,14 @@ TEST_CASE("in a smoky corridor alternatives pass the rules and brighter signs ar
     CHECK(one.objective <= best.objective * 1.3 + 1e-9);
     CHECK(one.worst().least <= one.worst().most);
   }
-  const std::string version = "1", json = json_text(design_json(*scene, result.value(), version));
-  CHECK(json.find("\"recommended\"") != std::string::npos);
+  const std::string version = "1";
+  const Json json = design_json(record_of(*scene, result.value(), version));
+  CHECK(json["smoke"].contains("recommended"));
+  // The record is read back whole.
+  const auto again = design_of(json);
+  INFO((again ? "" : again.problem().what));
+  REQUIRE(again);
+  CHECK(design_json(again.value()).dump(1) == json.dump(1));
   REQUIRE(write_design(folder.path() / "out", *scene, result.value(), Language::en, version));
   CHECK(fs::exists(folder.path() / "out/alternatives/layout_B.toml"));
   // A later design without smoke removes the layouts of this one.
@@ -278,12 +286,13 @@ TEST_CASE("if smoke sinks, the time until which each layout guides is reported",
     }
   }
   const Texts english(Language::en);
-  const Json json = smoke_json(stage.value());
+  DesignRecord record;
+  record.objective.kind = "number";
+  record.smoke = record_of(stage.value());
   std::string told;
-  for (const std::string& line : smoke_words(english, json)) told += line + "\n";
+  for (const std::string& line : smoke_words(english, *record.smoke)) told += line + "\n";
   CHECK(told.find("guide from every place of every route until 30 s") != std::string::npos);
-  const Json design = {{"objective", {{"kind", "number"}}}, {"smoke", json}};
-  const std::string page = smoke_section(english, design);
+  const std::string page = smoke_section(english, record);
   CHECK(page.find("Guides until") != std::string::npos);
   CHECK(page.find("A, until 30 s") != std::string::npos);
   CHECK(page.find("60 s, the last state") != std::string::npos);

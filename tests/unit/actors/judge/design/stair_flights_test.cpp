@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/judge/design/record_design.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/judge/design/design_scenes.hpp"
@@ -101,7 +102,7 @@ TEST_CASE("a flight that no candidate lights is reported, and no light is requir
   CHECK(result.unlit_stair_flights == std::vector<std::string>{"stairs"});
   CHECK(std::none_of(result.groups.begin(), result.groups.end(),
                      [](const ConstraintGroup& g) { return g.kind == DemandKind::stairs; }));
-  CHECK(design_json(*test::described(file), result, "1")["unlit_flights"].size() == 1);
+  CHECK(record_of(*test::described(file), result, "1").unlit_flights.size() == 1);
 }
 
 TEST_CASE("a luminaire that must not stay at its place lights no flight", "[design][flights]") {

@@ -86,7 +86,7 @@ AssessmentRecord full() {
                          remark(RemarkId::asks_fifteen_seconds),
                          "BAuA",
                          {}}};
-  a.state.remarks = {remark(RemarkId::young_eyes)};
+  a.state.remarks = {remark(RemarkId::young_eyes, 20)};
   a.verdict = {"first", "no check made fails", 0, 0, 0, 1};
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
   a.people = {40, 0.5, true};
@@ -215,7 +215,8 @@ TEST_CASE("an assessment.json that is of another format or inconsistent is refus
     const auto read = assessment_of(json);
     return read ? std::string() : read.problem().what;
   };
-  CHECK(with("", "format", "luxodus assessment 1") == "is not a \"luxodus assessment 2\"");
+  CHECK(with("", "format", "luxodus assessment 1") ==
+        "its \"format\" is not \"luxodus assessment 2\"");
   CHECK(with("state/remarks/0", "id", "of_nobody").find("state.remarks[0]: ") == 0);
   CHECK(with("checks/0", "verdict", "maybe") == "checks[0].verdict is \"maybe\": unknown");
   CHECK(with("over_time/routes/0", "guided", Json::array({"gg", "gx"})) ==
@@ -226,5 +227,9 @@ TEST_CASE("an assessment.json that is of another format or inconsistent is refus
   CHECK(with("plan/backdrops/0", "png", "cG5n") ==
         "plan.backdrops: one is neither lines nor a picture");
   CHECK(with("project", "logo_png", "<script>") == "project.logo_png is no picture");
+  CHECK(with("checks/0/subject", "name", std::string(limits::field_text + 1, 'x')) ==
+        "checks[0].subject has more than 20000 characters");
+  CHECK(with("checks/0/conditions/0", "args", Json::array({1e20, 1})) ==
+        "checks[0].conditions[0] is larger than any number of a result");
   CHECK(with("counts", "pass", 2) == "counts.pass is not the number of its checks");
 }
