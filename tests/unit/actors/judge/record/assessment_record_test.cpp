@@ -87,7 +87,7 @@ AssessmentRecord full() {
                          "BAuA",
                          {}}};
   a.state.remarks = {remark(RemarkId::young_eyes, 20)};
-  a.verdict = {"first", "no check made fails", 0, 0, 0, 1};
+  a.verdict = {"first", "no check made fails", {1, 0, 0, 0}};
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
   a.people = {40, 0.5, true};
   a.method = {7, 1000, 0.5};
