@@ -152,16 +152,9 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
                assessment.state.scenario};
   out.state = state_record(assessment.state);
   const CheckCounts counts = counts_of(assessment.checks);
-  out.counts = {count_of(counts, CheckVerdict::pass), count_of(counts, CheckVerdict::fail),
-                count_of(counts, CheckVerdict::not_assessed),
-                count_of(counts, CheckVerdict::not_verified)};
+  out.counts = CountsRecord::of(counts);
   for (const SightRow& row : assessment.sights) ++out.sight_counts[name_of(row.sight.verdict)];
-  out.verdict = {.first = first_sentence(out, words_of(counts)),
-                 .words = words_of(counts),
-                 .fail = out.counts.fail,
-                 .not_assessed = out.counts.not_assessed,
-                 .not_verified = out.counts.not_verified,
-                 .pass = out.counts.pass};
+  out.verdict = {first_sentence(out, words_of(counts)), words_of(counts), out.counts};
   out.not_assessed = not_assessed_of(assessment);
   out.people = {scene.assessment.age_years, scene.assessment.spacing_m,
                 scene.assessment.irritant_smoke};

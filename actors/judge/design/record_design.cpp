@@ -163,7 +163,6 @@ DesignRecord record_of(const SceneDescription& scene, const DesignResult& result
                        const std::string& version) {
   const DesignSettings& design = *scene.design;
   const LayoutAnswer& answer = result.answer;
-  const CheckCounts counts = counts_of(result.assessment.checks);
   DesignRecord out;
   out.program = "luxodus " + version;
   out.scene = {scene.name, scene.title};
@@ -190,10 +189,7 @@ DesignRecord record_of(const SceneDescription& scene, const DesignResult& result
   out.types = types_of(scene, result);
   out.constraints = constraints_of(result);
   for (const BindingDemand& one : result.because) out.because.push_back(binding_of(one));
-  out.checks = {.pass = count_of(counts, CheckVerdict::pass),
-                .fail = count_of(counts, CheckVerdict::fail),
-                .not_assessed = count_of(counts, CheckVerdict::not_assessed),
-                .not_verified = count_of(counts, CheckVerdict::not_verified)};
+  out.checks = CountsRecord::of(counts_of(result.assessment.checks));
   for (const Check& check : result.others)
     out.failing_otherwise.push_back({check.rule.id, check.subject, check.reasons});
   out.refined = result.refined;

@@ -11,6 +11,8 @@ namespace luxodus {
 
 template <>
 inline constexpr size_t members_to_list<CheckRecord> = members_of<Check>() - 1 + members_of<Rule>();
+template <>  // of the counts all four
+inline constexpr size_t members_to_list<VerdictRecord> = members_of<VerdictRecord>() + 3;
 template <>  // warnings are those of the assessment
 inline constexpr size_t members_to_list<OverTime> = members_of<OverTime>() - 1;
 template <>  // of the guided route its length, places and guidance
@@ -185,23 +187,28 @@ Result<void> check_checks(const AssessmentRecord& a) {
     if (!is_listed(a.state.deviations, rule.deviation))
       return stray(i, rule.deviation, "deviations");
   }
-  const auto& said = a.counts;
-  const auto& verdict = a.verdict;
-  for (const auto& [where, number, counted] :
-       {std::tuple("counts.fail", said.fail, CheckVerdict::fail),
-        std::tuple("counts.not_assessed", said.not_assessed, CheckVerdict::not_assessed),
-        std::tuple("counts.not_verified", said.not_verified, CheckVerdict::not_verified),
-        std::tuple("counts.pass", said.pass, CheckVerdict::pass),
-        std::tuple("verdict.fail", verdict.fail, CheckVerdict::fail),
-        std::tuple("verdict.not_assessed", verdict.not_assessed, CheckVerdict::not_assessed),
-        std::tuple("verdict.not_verified", verdict.not_verified, CheckVerdict::not_verified),
-        std::tuple("verdict.pass", verdict.pass, CheckVerdict::pass)})
-    if (number != count_of(counts, counted))
-      return problem(std::string(where) + " is not the number of its checks");
+  const CountsRecord counted = CountsRecord::of(counts);
+  const std::pair<const char*, size_t CountsRecord::*> keys[] = {
+      {"fail", &CountsRecord::fail},
+      {"not_assessed", &CountsRecord::not_assessed},
+      {"not_verified", &CountsRecord::not_verified},
+      {"pass", &CountsRecord::pass}};
+  for (const auto& [table, said] :
+       {std::pair("counts", a.counts), std::pair("verdict", a.verdict.counts)})
+    for (const auto& [key, count] : keys)
+      if (said.*count != counted.*count)
+        return problem(fmt::format("{}.{} is not the number of its checks", table, key));
   return {};
 }
 
 }  // namespace
+
+CountsRecord CountsRecord::of(const CheckCounts& counts) {
+  return {.pass = count_of(counts, CheckVerdict::pass),
+          .fail = count_of(counts, CheckVerdict::fail),
+          .not_assessed = count_of(counts, CheckVerdict::not_assessed),
+          .not_verified = count_of(counts, CheckVerdict::not_verified)};
+}
 
 GuidedTimeRecord::GuidedTimeRecord(const GuidedTime& time)
     : until_s(time.until_s), lost_by_s(time.lost_by_s) {

@@ -25,8 +25,8 @@ struct SceneRecord {
   std::string content_hash;  // 16 hexadecimal digits
   std::string scenario;
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("title", m.title)("file", m.file)("content_hash", m.content_hash)(
-        "scenario", m.scenario);
+    field("name", m.name)("title", m.title)("file", m.file)("content_hash", m.content_hash);
+    field("scenario", m.scenario);
   }
 };
 
@@ -109,13 +109,24 @@ struct StateRecord {
 
 // ---- verdicts ----------------------------------------------------------------------------------
 
+/// Checks by their verdicts.
+struct CountsRecord {
+  size_t pass = 0, fail = 0, not_assessed = 0, not_verified = 0;
+  static CountsRecord of(const CheckCounts& counts);
+  static constexpr void fields(auto&& field, auto& m) {
+    field("pass", m.pass)("fail", m.fail)("not_assessed", m.not_assessed);
+    field("not_verified", m.not_verified);
+  }
+};
+
 struct VerdictRecord {
   std::string first;  // the sentence that every output shows first
   std::string words;
-  size_t fail = 0, not_assessed = 0, not_verified = 0, pass = 0;
+  CountsRecord counts;
   static constexpr void fields(auto&& field, auto& m) {
-    field("first", m.first)("words", m.words)("fail", m.fail)("not_assessed", m.not_assessed)(
-        "not_verified", m.not_verified)("pass", m.pass);
+    field("first", m.first)("words", m.words)("fail", m.counts.fail);
+    field("not_assessed", m.counts.not_assessed)("not_verified", m.counts.not_verified);
+    field("pass", m.counts.pass);
   }
 };
 
@@ -156,18 +167,10 @@ struct MethodRecord {
   }
 };
 
-struct CountsRecord {
-  size_t pass = 0, fail = 0, not_assessed = 0, not_verified = 0;
-  static constexpr void fields(auto&& field, auto& m) {
-    field("pass", m.pass)("fail", m.fail)("not_assessed", m.not_assessed)("not_verified",
-                                                                          m.not_verified);
-  }
-};
-
 struct CheckRecord : Check {
   static constexpr void fields(auto&& field, auto& m) {
-    field("rule", m.rule.id)("rule_set", m.rule.set)("deviation", m.rule.deviation)("edition",
-                                                                                    m.rule.edition);
+    field("rule", m.rule.id)("rule_set", m.rule.set)("deviation", m.rule.deviation);
+    field("edition", m.rule.edition);
     field("clause", derived([&m] { return english().clause(m.rule); }));
     field("clause_number", m.rule.clause);
     field("title", derived([&m] { return english().rule_title(name_of(m.rule.id)); }));
@@ -243,8 +246,8 @@ struct OtherLightRecord {
   std::optional<Remark> reason;
   LookRecord look;
   static constexpr void fields(auto&& field, auto& m) {
-    field("light", either(m.in_new_light, "new", "aged"))("verdict", m.verdict)("reason", m.reason)(
-        in_place, m.look);
+    field("light", either(m.in_new_light, "new", "aged"))("verdict", m.verdict);
+    field("reason", m.reason)(in_place, m.look);
   }
 };
 
@@ -284,8 +287,8 @@ struct SightRecord {
     field("from", m.from)("stands_for", m.stands_for);
     field("along", m.along_m, {.unit = "m"});
     field("eye_height", m.eye_height_m, {.unit = "m"});
-    field("eye", m.eye)("sign", m.sign)("back_face", m.back_face)("verdict", m.verdict)("reason",
-                                                                                        m.reason);
+    field("eye", m.eye)("sign", m.sign)("back_face", m.back_face)("verdict", m.verdict);
+    field("reason", m.reason);
     field("distance", m.distance_m, {.unit = "m", .or_null = true});
     field("angle_from_normal", m.from_normal_deg, {.unit = "deg", .or_null = true});
     field("angle_from_gaze", m.from_gaze_deg, {.unit = "deg", .or_null = true});
@@ -301,8 +304,8 @@ struct SweepRow {
   std::string sign;
   int64_t places = 0, legible = 0, undecided = 0;
   static constexpr void fields(auto&& field, auto& m) {
-    field("smoke_factor", m.factor)("sign", m.sign)("places", m.places)("legible", m.legible)(
-        "undecided", m.undecided);
+    field("smoke_factor", m.factor)("sign", m.sign)("places", m.places)("legible", m.legible);
+    field("undecided", m.undecided);
   }
 };
 
@@ -345,12 +348,13 @@ struct AssessmentRecord {
   PlanRecord plan;
   static constexpr void fields(auto&& field, auto& m) {
     field("format", derived([] { return std::string(assessment_format); }));
-    field("version", m.version)("scene", m.scene)("state", m.state)("verdict", m.verdict)(
-        "not_assessed", m.not_assessed)("people", m.people)("method", m.method)("counts", m.counts)(
-        "sight_counts", m.sight_counts)("checks", m.checks)("sights", m.sights)("sweep", m.sweep)(
-        "over_time", m.over_time)("warnings", m.warnings)("project", m.project)(
-        "scenario", m.scenario)("luminaires", m.luminaires)("signs", m.signs)("places", m.places)(
-        "materials", m.materials)("media", m.media)("cameras", m.cameras)("plan", m.plan);
+    field("version", m.version)("scene", m.scene)("state", m.state)("verdict", m.verdict);
+    field("not_assessed", m.not_assessed)("people", m.people)("method", m.method);
+    field("counts", m.counts)("sight_counts", m.sight_counts)("checks", m.checks);
+    field("sights", m.sights)("sweep", m.sweep)("over_time", m.over_time)("warnings", m.warnings);
+    field("project", m.project)("scenario", m.scenario)("luminaires", m.luminaires);
+    field("signs", m.signs)("places", m.places)("materials", m.materials)("media", m.media);
+    field("cameras", m.cameras)("plan", m.plan);
   }
 };
 

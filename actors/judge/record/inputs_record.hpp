@@ -30,9 +30,9 @@ struct ProjectRecord {
   double north_deg = 0;
   std::string logo_png;  // base64; "" if there is none
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("client", m.client)("address", m.address)("document", m.document)(
-        "revision", m.revision)("date", m.date)("author", m.author)("checker", m.checker)(
-        "north_deg", m.north_deg);
+    field("name", m.name)("client", m.client)("address", m.address)("document", m.document);
+    field("revision", m.revision)("date", m.date)("author", m.author)("checker", m.checker);
+    field("north_deg", m.north_deg);
     field("logo_png", m.logo_png, {.or_left_out = true, .max_text = limits::record_picture});
   }
 };
@@ -54,8 +54,8 @@ struct ScenarioRecord {
   static constexpr void fields(auto&& field, auto& m) {
     field("name", m.name)("operation", m.operation);
     field("seconds_after_failure", m.seconds_after_failure, {.or_null = true});
-    field("media", m.media)("doors_open", m.doors_open)("doors_closed", m.doors_closed)(
-        "circuits", m.circuits)("smoke_factor", m.smoke_factor);
+    field("media", m.media)("doors_open", m.doors_open)("doors_closed", m.doors_closed);
+    field("circuits", m.circuits)("smoke_factor", m.smoke_factor);
   }
 };
 
@@ -70,11 +70,12 @@ struct LuminaireRecord {
   std::optional<glm::dvec3> opening_m;
   std::vector<glm::dvec2> onset;  // seconds and share of the flux
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("file", m.file)("product", m.product)("shape", m.shape)(
-        "distribution", m.distribution)("position", m.position)("circuit", m.circuit)(
-        "operation", m.operation)("mains_flux", m.mains_flux)("emergency_flux", m.emergency_flux)(
-        "maintenance_factor", m.maintenance_factor)(
-        "end_of_duration_factor", m.end_of_duration_factor)("emergency_ageing", m.emergency_ageing);
+    field("name", m.name)("file", m.file)("product", m.product)("shape", m.shape);
+    field("distribution", m.distribution)("position", m.position)("circuit", m.circuit);
+    field("operation", m.operation)("mains_flux", m.mains_flux);
+    field("emergency_flux", m.emergency_flux)("maintenance_factor", m.maintenance_factor);
+    field("end_of_duration_factor", m.end_of_duration_factor);
+    field("emergency_ageing", m.emergency_ageing);
     field("ifc_guid", m.ifc_guid, {.or_left_out = true});
     field("opening_m", m.opening_m)("onset", m.onset);
   }
@@ -103,8 +104,8 @@ struct SignRecord {
   std::string lighting, circuit, ifc_guid;
   std::optional<FaceRecord> face;  // none if it is lit from outside
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("position", m.position)("facing", m.facing)("file", m.file)("text",
-                                                                                      m.text);
+    field("name", m.name)("position", m.position)("facing", m.facing)("file", m.file);
+    field("text", m.text);
     field("width", m.width_m, {.unit = "m"});
     field("height", m.height_m, {.unit = "m"});
     field("smallest_detail", m.smallest_detail_m, {.unit = "m"});
@@ -132,8 +133,8 @@ struct AreaRecord {
   std::string ifc_guid;
   std::optional<double> mains_lx;  // of a task area
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("kind", either(m.is_task, "task", "open"))("outline", m.outline)("z",
-                                                                                           m.z_m);
+    field("name", m.name)("kind", either(m.is_task, "task", "open"))("outline", m.outline);
+    field("z", m.z_m);
     field("ifc_guid", m.ifc_guid, {.or_left_out = true});
     field("mains_lx", m.mains_lx);
   }
@@ -163,9 +164,9 @@ struct MaterialRecord {
   std::optional<double> reflectance, specular, transmittance, ior;
   bool picture = false;
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("kind", m.kind)("objects", m.objects)("reflectance", m.reflectance)(
-        "specular", m.specular)("transmittance", m.transmittance)("ior", m.ior)("picture",
-                                                                                m.picture);
+    field("name", m.name)("kind", m.kind)("objects", m.objects)("reflectance", m.reflectance);
+    field("specular", m.specular)("transmittance", m.transmittance)("ior", m.ior);
+    field("picture", m.picture);
   }
 };
 

@@ -173,6 +173,7 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
   CHECK(s["smoke"]["extinction"]["wavelength_nm"] == 633);
   CHECK(s["smoke"]["media"][0]["name"] == "smoke");
   CHECK(has(s["smoke"]["media"][0]["place"], "scene.toml:"));
+  CHECK(json["scenario"]["media"] == Json::parse(R"([{"name": "smoke", "factor": 0.4}])"));
   CHECK(s["rules"][0]["id"] == "en1838-2013");
   CHECK(s["rules"][0]["edition"] == "EN 1838:2013");
   CHECK(s["rules"][0]["status"]["id"] == "superseded");

@@ -87,7 +87,7 @@ AssessmentRecord full() {
                          "BAuA",
                          {}}};
   a.state.remarks = {remark(RemarkId::young_eyes, 20)};
-  a.verdict = {"first", "no check made fails", 0, 0, 0, 1};
+  a.verdict = {"first", "no check made fails", {1, 0, 0, 0}};
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
   a.people = {40, 0.5, true};
   a.method = {7, 1000, 0.5};
@@ -166,7 +166,7 @@ TEST_CASE("keys, forms and their order in assessment.json stay as they are", "[j
         R"("not_verified":0,"pass":1})");
   CHECK(text_at(json, "people/age") == R"({"value":40.0,"unit":"years"})");
   CHECK(text_at(json, "checks/0/subject") ==
-        R"~({"kind":"point of emphasis","name":"door","emphasis":"exit door",)~"
+        R"~({"kind":"emphasis","name":"door","emphasis":"exit_door",)~"
         R"~("text":"\"door\" (exit door)"})~");
   CHECK(text_at(json, "checks/0/sense") == R"("at least")");
   CHECK(text_at(json, "checks/0/margin") == "1.0");
