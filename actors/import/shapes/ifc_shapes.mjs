@@ -66,7 +66,8 @@ class Faults {
     const sum = (counts) => [...counts.values()].reduce((all, count) => all + count, 0);
     const rest = sum(this.reasons) - sum(this.hosts);
     if (rest > 0)
-      console.log(`note ${rest} cuts of solids were not made: ${[...this.reasons.keys()].join(', ')}`);
+      console.log(`note the library did not make ${rest} cuts of solids (` +
+        `${[...this.reasons.keys()].join(', ')}); those that show are made anew, or listed`);
   }
 }
 
