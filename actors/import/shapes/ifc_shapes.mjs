@@ -52,7 +52,8 @@ class Faults {
 
   add(found) {
     const grow = (counts, what, by) => counts.set(what, (counts.get(what) ?? 0) + by);
-    for (const { reason, count } of found?.failuresByReason ?? []) grow(this.reasons, reason, count);
+    for (const { reason, count } of found?.failuresByReason ?? [])
+      grow(this.reasons, reason, count);
     for (const host of found?.worstHosts ?? [])
       if (host.csgFailures > 0) grow(this.hosts, host.productId, host.csgFailures);
     for (const item of found?.unsupportedItemsByType ?? [])
