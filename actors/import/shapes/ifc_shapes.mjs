@@ -52,7 +52,8 @@ class Faults {
 
   add(found) {
     const grow = (counts, what, by) => counts.set(what, (counts.get(what) ?? 0) + by);
-    for (const { reason, count } of found?.failuresByReason ?? []) grow(this.reasons, reason, count);
+    for (const { reason, count } of found?.failuresByReason ?? [])
+      grow(this.reasons, reason, count);
     for (const host of found?.worstHosts ?? [])
       if (host.csgFailures > 0) grow(this.hosts, host.productId, host.csgFailures);
     for (const item of found?.unsupportedItemsByType ?? [])
@@ -66,7 +67,8 @@ class Faults {
     const sum = (counts) => [...counts.values()].reduce((all, count) => all + count, 0);
     const rest = sum(this.reasons) - sum(this.hosts);
     if (rest > 0)
-      console.log(`note ${rest} cuts of solids were not made: ${[...this.reasons.keys()].join(', ')}`);
+      console.log(`note the library did not make ${rest} cuts of solids (` +
+        `${[...this.reasons.keys()].join(', ')}); those that show are made anew, or listed`);
   }
 }
 
