@@ -426,8 +426,8 @@ void inspect_near_field(const Site& site, const Scenario& scenario, Findings& ou
   std::vector<NearPlace> places;
   site.building.each(1, [&](const GeometryAccess& access, size_t) {
     const auto sees = [&](const Emitter& luminaire, const glm::dvec3& place) {
-      return clear_share(site.building.scene(), access, site.building.local(place),
-                         site.building.local(luminaire.frame.origin), luminaire.body) > 0;
+      return clear_share(site.building.scene(), access, site.building.local(luminaire.frame.origin),
+                         site.building.local(place), luminaire.body) > 0;
     };
     places = near_field_places(site.scene, scenario, sees);
   });

@@ -34,7 +34,7 @@ inline bool is_luminaire(const CompiledEmitter& e) {
   return e.kind != EmitterKind::sign_face && e.kind != EmitterKind::volume;
 }
 
-/// Transmittance of solids in the middle band between two points. `body`: of the emitter at `to`,
+/// Transmittance of solids in the middle band between two points. `body`: of an emitter at one,
 /// whose own body does not stop its light; 0 for none.
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
                    const Vec3& to, int body = 0);
