@@ -102,7 +102,7 @@ name = "disc"
 shape = "disc"
 position = [3.94, 2, 2.0075]
 direction = [-1, 0, 0]
-size = [0.001]
+diameter = 0.001
 luminance_cd_m2 = 1e12
 [[sign]]
 name = "spot"
