@@ -166,7 +166,7 @@ TEST_CASE("a drawing unfit for a sign is refused with its file and the reason",
       std::string::npos);
   CHECK(problem_of(face_from_svg(scratch / "none.svg", 0.4, 0.2, 100)).find("no such file") !=
         std::string::npos);
-  CHECK(problem_of(face_from_svg(scratch.path(), 0.4, 0.2, 100)).find("no such file") !=
+  CHECK(problem_of(face_from_svg(scratch.path(), 0.4, 0.2, 100)).find("Is a directory") !=
         std::string::npos);
 }
 
