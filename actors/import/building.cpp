@@ -89,7 +89,7 @@ class Assembly {
   Assembly(const IfcModel& model, IfcShapes shapes, const ImportProgress& told)
       : model_(model), shapes_(std::move(shapes)), told_(told) {}
 
-  Building build() {
+  IfcBuilding build() {
     out_.title = model_.project;
     out_.file = model_.file;
     out_.schema = model_.schema;
@@ -480,7 +480,7 @@ class Assembly {
   std::unordered_map<uint64_t, const IfcProduct*> by_id_;
   std::map<uint64_t, std::vector<const IfcProduct*>> parts_of_;  // of luminaires
   std::vector<std::string> out_of_rooms_;
-  Building out_;
+  IfcBuilding out_;
 };
 
 /// Properties of interest to the user, with the model's words.
@@ -596,7 +596,7 @@ void Assembly::turn_sign(const PartRays& rays, BuildingFixture& fixture) {
 
 }  // namespace
 
-Building building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told) {
+IfcBuilding building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told) {
   return Assembly(model, std::move(shapes), told).build();
 }
 

@@ -101,7 +101,7 @@ struct VolumeDifference {
   double authored_m3 = 0, mesh_m3 = 0;
 };
 
-struct Building {
+struct IfcBuilding {
   std::string title, file, schema;
   std::vector<BuildingStorey> storeys;  // upwards; only those with parts
   std::map<std::string, BuildingMaterial> materials;
@@ -118,7 +118,7 @@ struct Building {
 /// Combines a model and its shapes. Nothing is guessed: what is missing is in `unread`. `told`,
 /// where given, receives the current step and its share done.
 using ImportProgress = std::function<void(const std::string& what, double share)>;
-Building building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told = {});
+IfcBuilding building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told = {});
 
 // ---- steps of it, apart for tests
 // ----------------------------------------------------------------

@@ -12,7 +12,8 @@ constexpr double same_place_m = 1e-5;
 
 class ShortLines {
  public:
-  explicit ShortLines(std::span<const PlanLine> lines) : lines_(lines), used_(lines.size(), false) {
+  explicit ShortLines(std::span<const DrawnLine> lines)
+      : lines_(lines), used_(lines.size(), false) {
     for (size_t i = 0; i < lines.size(); ++i) {
       if (!is_short(i)) continue;
       at_[place(lines[i].from)].push_back(i);
@@ -50,20 +51,20 @@ class ShortLines {
       if (here.empty()) return out;
       const size_t next = here.back();
       used_[next] = true;
-      const PlanLine& line = lines_[next];
+      const DrawnLine& line = lines_[next];
       at = place(line.from) == place(at) ? line.to : line.from;
       out.push_back(at);
     }
   }
 
-  std::span<const PlanLine> lines_;
+  std::span<const DrawnLine> lines_;
   std::vector<bool> used_;
   std::map<Place, std::vector<size_t>> at_;
 };
 
 }  // namespace
 
-JoinedLines join_short_lines(std::span<const PlanLine> lines) {
+JoinedLines join_short_lines(std::span<const DrawnLine> lines) {
   ShortLines shorts(lines);
   JoinedLines out;
   for (size_t i = 0; i < lines.size(); ++i) {

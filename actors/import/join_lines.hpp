@@ -9,12 +9,12 @@
 
 namespace luxodus {
 
-struct PlanLine {
+struct DrawnLine {
   glm::dvec2 from{0}, to{0};  // [m]
 };
 
 struct JoinedLines {
-  std::vector<PlanLine> lines;
+  std::vector<DrawnLine> lines;
   size_t dropped = 0;  // lines of chains that span less than a millimetre
 };
 
@@ -27,6 +27,6 @@ inline constexpr double shortest_joint_m = 0.001;
 }  // namespace limits
 
 /// The lines in their order, chains of short ones in the place of their first.
-JoinedLines join_short_lines(std::span<const PlanLine> lines);
+JoinedLines join_short_lines(std::span<const DrawnLine> lines);
 
 }  // namespace luxodus

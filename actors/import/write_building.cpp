@@ -42,7 +42,7 @@ std::string axis_text(const glm::dvec3& v) {
 // ---- a person's tables
 // ---------------------------------------------------------------------------
 
-void add_materials(const Building& building, OwnTables& tables) {
+void add_materials(const IfcBuilding& building, OwnTables& tables) {
   for (const auto& [name, material] : building.materials) {
     if (tables.has("material", name)) continue;
     tables.added += fmt::format("\n[[material]]\nname = {}\n", toml_text(name));
@@ -160,7 +160,7 @@ const char* table_of(bool is_sign) {
   return is_sign ? "sign_type" : "luminaire_type";
 }
 
-FixtureTypes types_of(const Building& building) {
+FixtureTypes types_of(const IfcBuilding& building) {
   FixtureTypes types;
   for (const BuildingFixture& f : building.fixtures) types[{f.is_sign, f.type}].push_back(&f);
   return types;
@@ -267,7 +267,7 @@ std::string exit_text(const BuildingExit& exit) {
 }
 
 /// The point, of a grid over the first room or the building, that is farthest from all surfaces.
-glm::dvec3 free_place(const Building& building) {
+glm::dvec3 free_place(const IfcBuilding& building) {
   Bounds box;
   if (!building.rooms.empty()) {
     const BuildingRoom& room = building.rooms.front();
@@ -301,7 +301,7 @@ glm::dvec3 free_place(const Building& building) {
   return farthest < near_m ? glm::dvec3(best.x, best.y, box.high.z + 1) : best;
 }
 
-std::string scene_head(const Building& building, bool any_light) {
+std::string scene_head(const IfcBuilding& building, bool any_light) {
   std::string out = fmt::format(
       "title = {}\ninclude = [\"building.toml\"]\n\n"
       "# Yours: an import writes this file only where there is none. What the model gave is in\n"
@@ -336,7 +336,7 @@ std::string lines_of(const std::string& title, const std::vector<std::string>& l
   return lines.empty() ? out + "  nothing\n" : out;
 }
 
-std::string report_text(const Building& building, const WrittenBuilding& written) {
+std::string report_text(const IfcBuilding& building, const WrittenBuilding& written) {
   std::vector<std::string> volumes;
   for (const VolumeDifference& d : building.differences)
     volumes.push_back(fmt::format(
@@ -357,7 +357,7 @@ std::string report_text(const Building& building, const WrittenBuilding& written
 }
 
 /// Single precision must resolve a tenth of a millimetre, which it does up to a kilometre.
-glm::dvec3 origin_of(const Building& building) {
+glm::dvec3 origin_of(const IfcBuilding& building) {
   constexpr double far_m = 1000;
   Bounds bounds;
   for (const BuildingStorey& storey : building.storeys)
@@ -404,7 +404,7 @@ Result<std::map<std::string, fs::path>> photometry_by_name(const std::string& fo
 namespace {
 
 /// Shapes of storeys, and the bodies of fixtures that are not placed.
-std::vector<BuildingStorey> with_bodies(const Building& building, const OwnTables& fixtures) {
+std::vector<BuildingStorey> with_bodies(const IfcBuilding& building, const OwnTables& fixtures) {
   std::vector<BuildingStorey> storeys = building.storeys;
   for (const BuildingFixture& fixture : building.fixtures) {
     if (fixtures.has(table_of(fixture.is_sign), fixture.type)) continue;
@@ -454,14 +454,14 @@ Result<std::string> with_changes_kept(const std::string& fresh, const fs::path& 
   return changes.text;
 }
 
-void note_solids(const Building& building, WrittenBuilding& written) {
+void note_solids(const IfcBuilding& building, WrittenBuilding& written) {
   for (const OpenSolid& solid : building.open_solids)
     written.open_solids.push_back(
         fmt::format("#{} {} {}: faces of {:.3g} m2 are missing; light passes there", solid.id,
                     solid.name, solid.guid, solid.area_m2));
 }
 
-void note_rooms(const Building& building, WrittenBuilding& written) {
+void note_rooms(const IfcBuilding& building, WrittenBuilding& written) {
   constexpr double crack = 0.002;  // one ray of 500
   for (const BuildingRoom& room : building.rooms)
     if (room.open_share >= crack)
@@ -473,7 +473,7 @@ void note_rooms(const Building& building, WrittenBuilding& written) {
 
 }  // namespace
 
-Result<WrittenBuilding> write_building(const Building& building, const std::string& out,
+Result<WrittenBuilding> write_building(const IfcBuilding& building, const std::string& out,
                                        const std::string& photometry) {
   WrittenBuilding written;
   const auto files = photometry_by_name(photometry);

@@ -32,7 +32,7 @@ struct WrittenBuilding {
 
 /// `photometry`: folder of photometric files; "" for none.
 /// Errors: a folder or file that cannot be read or written, a malformed fixtures.toml.
-Result<WrittenBuilding> write_building(const Building& building, const std::string& out,
+Result<WrittenBuilding> write_building(const IfcBuilding& building, const std::string& out,
                                        const std::string& photometry);
 
 // ---- steps of it, apart for tests

@@ -213,9 +213,9 @@ class PlanText {
  private:
   /// The lines of each layer that is to be walls.
   std::string walls() {
-    std::map<std::string, std::vector<PlanLine>> of_layer;
+    std::map<std::string, std::vector<DrawnLine>> of_layer;
     for (const DxfSegment& s : plan_.segments) {
-      const PlanLine line{s.from * unit_, s.to * unit_};
+      const DrawnLine line{s.from * unit_, s.to * unit_};
       extent.extend(glm::dvec3(line.from, 0));
       extent.extend(glm::dvec3(line.to, 0));
       if (rules_.layers.at(s.layer).as != "nothing") of_layer[s.layer].push_back(line);
@@ -224,7 +224,7 @@ class PlanText {
     for (const auto& [layer, lines] : of_layer) {
       const LayerRule& rule = rules_.layers.at(layer);
       const JoinedLines joined = join_short_lines(lines);
-      for (const PlanLine& line : joined.lines) {
+      for (const DrawnLine& line : joined.lines) {
         ++written.walls;
         walls_.extend(glm::dvec3(line.from, 0));
         walls_.extend(glm::dvec3(line.to, 0));

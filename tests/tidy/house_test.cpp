@@ -422,6 +422,45 @@ TEST_CASE("no header opens a namespace to whoever includes it", "[tidy]") {
   CHECK_NONE(bad);
 }
 
+namespace {
+
+/// The name of a type that a line defines at the level of a namespace, "" if none.
+std::string defined_type(const std::string& line) {
+  for (const std::string_view kind : {"struct ", "class ", "enum class "}) {
+    if (line.rfind(kind, 0) != 0 || line.ends_with(";")) continue;
+    const size_t end = line.find_first_not_of(
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", kind.size());
+    return line.substr(kind.size(), end - kind.size());
+  }
+  return "";
+}
+
+}  // namespace
+
+// Two types of one name in one namespace are one for the linker, which keeps the functions of
+// either.
+TEST_CASE("no two headers define types of one name in one namespace", "[tidy]") {
+  std::map<std::string, std::string> places;
+  Findings bad;
+  for (const Source& source : sources()) {
+    if (!source.header() || source.in("tests")) continue;
+    std::vector<std::string> spaces;
+    for (size_t i = 0; i < source.lines.size(); ++i) {
+      const std::string& line = source.lines[i];
+      if (line.rfind("namespace ", 0) == 0 && line.ends_with("{")) spaces.push_back(line);
+      if (line.rfind("}  // namespace", 0) == 0 && !spaces.empty()) spaces.pop_back();
+      const std::string type = defined_type(line);
+      if (type.empty()) continue;
+      std::string name;
+      for (const std::string& space : spaces) name += space;
+      const auto [first, is_new] = places.emplace(name + type, source.at(i));
+      if (!is_new) bad.push_back(source.at(i) + ": " + type + ", as in " + first->second);
+    }
+  }
+  CHECK(places.size() > 500);
+  CHECK_NONE(bad);
+}
+
 TEST_CASE("chance comes from the counter-based generator and time from nowhere", "[tidy]") {
   struct Ban {
     std::string word;

@@ -145,7 +145,8 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
   const Comparison comparison = comparison_of(a.value(), b.value());
   std::printf("%s", comparison_text(comparison).c_str());
   if (!json.empty())
-    if (auto ok = write_json(behind_links(json), comparison_json(comparison)); !ok) return ok.problem();
+    if (auto ok = write_json(behind_links(json), comparison_json(comparison)); !ok)
+      return ok.problem();
   return ExitCode::success;
 }
 

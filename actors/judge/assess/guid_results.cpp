@@ -96,7 +96,7 @@ class PropertyRows {
  public:
   PropertyRows(CsvTable& table, const ModelThing& thing) : table_(table), thing_(thing) {}
 
-  void add(const std::string& set, const std::string& property, const Quantity& value) {
+  void add(const std::string& set, const std::string& property, const QuantityRecord& value) {
     begin(set, property);
     table_.cell(value.value).cell(measure_of(value.unit)).cell(value.unit).end_row();
   }

@@ -51,8 +51,8 @@ struct ExtinctionRecord {
   }
 };
 
-/// Range of the extinction of a medium at one wavelength, with the factors of the scenario [1/m]; of
-/// a data set in the building, from the lowest eye to the highest sign or eye.
+/// Range of the extinction of a medium at one wavelength, with the factors of the scenario [1/m];
+/// of a data set in the building, from the lowest eye to the highest sign or eye.
 struct StatedMedium {
   std::string name;
   std::string kind;   // "layered", "flame"
@@ -268,8 +268,8 @@ struct SeenRecord {
 
 /// The view of a sign from a place.
 struct SightRecord {
-  Subject from;         // a route, an open area or an observer
-  Quantity stands_for;  // "m" of a route or "m2" of an area
+  Subject from;               // a route, an open area or an observer
+  QuantityRecord stands_for;  // "m" of a route or "m2" of an area
   double along_m = 0, eye_height_m = 0;
   glm::dvec3 eye{0};
   std::string sign;

@@ -18,11 +18,11 @@ inline constexpr size_t record_picture = size_t{24} << 20;
 }  // namespace limits
 
 /// A number whose unit differs from one value to the next.
-struct Quantity {
+struct QuantityRecord {
   double value = 0;
   std::string unit;
   static constexpr void fields(auto&& field, auto& m) { field("value", m.value)("unit", m.unit); }
-  bool operator==(const Quantity&) const = default;
+  bool operator==(const QuantityRecord&) const = default;
 };
 
 struct ProjectRecord {
@@ -64,7 +64,7 @@ struct LuminaireRecord {
   glm::dvec3 position{0};
   std::string circuit;
   std::string operation;  // "mains", "maintained", "non-maintained"
-  Quantity mains_flux, emergency_flux;
+  QuantityRecord mains_flux, emergency_flux;
   double maintenance_factor = 1, end_of_duration_factor = 1, emergency_ageing = 1;
   std::string ifc_guid;
   std::optional<glm::dvec3> opening_m;

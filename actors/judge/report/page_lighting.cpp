@@ -62,7 +62,7 @@ std::string type_rows(const PageParts& parts, const LuminaireType& type) {
     what += "<br><code>" + breaking_at_slashes(one.file) + "</code>";
   if (const std::string opening = opening_text(t, one); !opening.empty())
     what += "<br>" + escaped(t.say("lamp.opening", opening));
-  const auto flux = [&](const Quantity& q) {
+  const auto flux = [&](const QuantityRecord& q) {
     return q.value > 0 ? number_cell(t, q.value, q.unit, 4) : no_number_cell();
   };
   return "<tr class=\"lead\">" + html_cell("<b>" + type.letter + "</b>") + html_cell(what) +

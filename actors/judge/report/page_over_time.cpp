@@ -49,7 +49,7 @@ std::string walk_text(const Texts& t, const GuidedWalk& walk) {
   const std::string at = t.number(walk.at_m), when = t.number(walk.at_s, 4);
   return walk.end == GuidedWalk::End::arrives ? t.say("walk.arrives", when)
          : walk.end == GuidedWalk::End::lost  ? t.say("walk.lost", at, when)
-                                        : t.say("walk.unknown", at, when);
+                                              : t.say("walk.unknown", at, when);
 }
 
 std::string walks_table(const Texts& t, const OverTime& over) {

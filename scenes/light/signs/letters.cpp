@@ -210,9 +210,9 @@ void run_out(std::vector<glm::dvec2>& points, RunOut ends, double by_m) {
     points[n - 1] += by_m * glm::normalize(points[n - 1] - points[n - 2]);
 }
 
-Letter place_letter(char c, const Glyph& glyph, double left_m, double width_m,
-                    const LetterSize& size) {
-  Letter letter{c, {left_m, 0}, {left_m + width_m, size.height_m}, {}};
+LetterShape place_letter(char c, const Glyph& glyph, double left_m, double width_m,
+                         const LetterSize& size) {
+  LetterShape letter{c, {left_m, 0}, {left_m + width_m, size.height_m}, {}};
   const glm::dvec2 inset(size.stroke_m / 2);
   const glm::dvec2 extent = letter.high - letter.low - 2.0 * inset;
   for (const Line& line : glyph.lines) {

@@ -30,7 +30,7 @@ struct LetterSize {
 /// A placed letter: the box that it fills exactly, and the centre lines of its strokes. Coordinates
 /// [m] from the lower left corner of the legend, x to the right, y up. Strokes have square ends and
 /// mitred joints, and are clipped to the box (so a diagonal ends flat on the base line).
-struct Letter {
+struct LetterShape {
   char character = ' ';
   glm::dvec2 low{0};
   glm::dvec2 high{0};
@@ -38,7 +38,7 @@ struct Letter {
 };
 
 struct Lettering {
-  std::vector<Letter> letters;  // without the spaces
+  std::vector<LetterShape> letters;  // without the spaces
   double width_m = 0;
   double height_m = 0;
   double stroke_m = 0;

@@ -207,7 +207,7 @@ void set_colour(cairo_t* pen, const Rgba& rgba) {
 }
 
 /// Requires: a user space in metres with y up.
-void draw_letter(cairo_t* pen, const Letter& letter) {
+void draw_letter(cairo_t* pen, const LetterShape& letter) {
   cairo_save(pen);
   cairo_rectangle(pen, letter.low.x, letter.low.y, letter.high.x - letter.low.x,
                   letter.high.y - letter.low.y);
@@ -326,7 +326,7 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
   cairo_set_line_width(pen.get(), lettering->stroke_m);
   cairo_set_line_cap(pen.get(), CAIRO_LINE_CAP_SQUARE);
   cairo_set_line_join(pen.get(), CAIRO_LINE_JOIN_MITER);
-  for (const Letter& letter : lettering->letters) draw_letter(pen.get(), letter);
+  for (const LetterShape& letter : lettering->letters) draw_letter(pen.get(), letter);
   if (cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
     return problem("the legend cannot be drawn: out of memory", ProblemKind::no_room);
   vote(face.value(), pixels_of(surface.get()));

@@ -211,10 +211,15 @@ Result<void> resolve_surface_groups(CompiledScene& scene) {
   return {};
 }
 
-double flux_of(const CompiledScene& scene) {
-  double lumens = 0;
+/// How bright a scene is: its flux over the square of its size [lx], or a thousandth of the
+/// luminance of its brightest sign, which may be small and far from all else.
+double level_of(const CompiledScene& scene) {
+  double lumens = 0, brightest = 0;
   for (const CompiledEmitter& e : scene.emitters) lumens += e.luminous_flux_lm;
-  return lumens;
+  for (const CompiledSign& sign : scene.signs)
+    brightest = std::max({brightest, sign.white_cd_m2, sign.green_cd_m2});
+  const auto size_m = static_cast<double>(scene.diagonal_m);
+  return std::max(lumens / (size_m * size_m), brightest / 1000);
 }
 
 void choose_features(CompiledScene& scene) {
@@ -417,7 +422,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   choose_eye_targets(*scene);
   mix_groups(*scene, options.mixtures);
   if (auto ok = choose_error_target(*scene, options.error_of); !ok) return ok.problem();
-  scene->light_quantum = light_quantum_of(flux_of(*scene));
+  scene->light_quantum = light_quantum_of(level_of(*scene));
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);

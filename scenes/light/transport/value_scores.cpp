@@ -6,11 +6,11 @@
 
 namespace luxodus {
 
-double light_quantum_of(double flux_lm) {
-  if (flux_lm > limits::large_flux_lm)
-    return std::ldexp(limits::value_quantum, std::ilogb(flux_lm / limits::large_flux_lm) + 1);
-  if (flux_lm > 0 && flux_lm < limits::small_flux_lm)
-    return std::ldexp(limits::value_quantum, std::ilogb(flux_lm / limits::small_flux_lm));
+double light_quantum_of(double level) {
+  if (level > limits::bright_level)
+    return std::ldexp(limits::value_quantum, std::ilogb(level / limits::bright_level) + 1);
+  if (level > 0 && level < limits::dark_level)
+    return std::ldexp(limits::value_quantum, std::ilogb(level / limits::dark_level));
   return limits::value_quantum;
 }
 

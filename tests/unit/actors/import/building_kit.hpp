@@ -34,7 +34,7 @@ inline bool can_compute() {
 }
 
 /// The building of a model, with its shapes.
-inline Building building_of_text(const std::string& text, const fs::path& file) {
+inline IfcBuilding building_of_text(const std::string& text, const fs::path& file) {
   const auto step = StepFile::of(text, file.string());
   REQUIRE(step.ok());
   const auto model = ifc_model_of(step.value(), file.string());
@@ -44,7 +44,7 @@ inline Building building_of_text(const std::string& text, const fs::path& file) 
   return building_of(model.value(), std::move(shapes).value());
 }
 
-inline const BuildingPart& part_with(const Building& building, const std::string& word) {
+inline const BuildingPart& part_with(const IfcBuilding& building, const std::string& word) {
   for (const BuildingStorey& storey : building.storeys)
     for (const BuildingPart& part : storey.parts)
       if (part.name.find(word) != std::string::npos) return part;

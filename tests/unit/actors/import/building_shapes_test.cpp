@@ -90,7 +90,7 @@ TEST_CASE("walls that half spaces cut along an edge come closed, with their wind
       text.add("IFCBOOLEANRESULT(.INTERSECTION.," + text.box({0, 0, 0}, {4000, 200, 3000}) + "," +
                text.above({0, 0, 3000}, {3, 0, 4}) + ")");
   const std::string lost = text.wall(crossing, {0, 6000, 0});
-  const Building building = building_of_text(text.text(), folder / "t.ifc");
+  const IfcBuilding building = building_of_text(text.text(), folder / "t.ifc");
   CHECK(building.open_solids.empty());
   const auto volume = [&](const std::string& id) {
     const BuildingPart& part = part_with(building, StepText::guid_of(id));
@@ -120,7 +120,7 @@ TEST_CASE("a wall that is cut in parts has all of them, and one cut away entirel
   const std::string gone = text.wall(
       text.without(text.box({0, 0, 0}, {4000, 200, 3000}), text.above({0, 0, 3000}, {1, 0, 0})),
       {0, 3000, 0});
-  const Building building = building_of_text(text.text(), folder / "t.ifc");
+  const IfcBuilding building = building_of_text(text.text(), folder / "t.ifc");
   CHECK(building.open_solids.empty());
   // Of the left half, 2 m long, the part above a line from 3 m to 5 m remains.
   CHECK(std::abs(signed_volume_of(part_with(building, StepText::guid_of(stepped)).mesh)) ==
@@ -140,7 +140,7 @@ TEST_CASE("walls far from the origin in their points keep their thickness", "[im
       text.wall(text.extruded(text.rectangle({500'000'250, 5'000'000'500}, {4000, 200}), 3000));
   const std::string sheet =
       text.wall(text.extruded(text.rectangle({500'000'250, 5'000'001'500}, {4000, 1}), 3000));
-  const Building building = building_of_text(text.text(), folder / "t.ifc");
+  const IfcBuilding building = building_of_text(text.text(), folder / "t.ifc");
   const Bounds a = bounds_of(part_with(building, StepText::guid_of(wall)).mesh);
   CHECK(glm::length(a.low - glm::dvec3(500'000.25, 5'000'000.5, 0)) < 1e-3);
   CHECK(a.high.y - a.low.y == Approx(0.2).epsilon(1e-3));
@@ -170,7 +170,7 @@ TEST_CASE("solids that the library does not know have their volume", "[import]")
       {csg("IFCRIGHTCIRCULARCONE(" + at() + ",3000.,500.)"), 0.7854},
       {csg("IFCRECTANGULARPYRAMID(" + at() + ",1000.,500.,750.)"), 0.125},
       {csg("IFCBOOLEANRESULT(.DIFFERENCE.," + block + "," + drill + ")"), 1 - 0.12566}};
-  const Building building = building_of_text(text.text(), folder / "t.ifc");
+  const IfcBuilding building = building_of_text(text.text(), folder / "t.ifc");
   CHECK(building.unread.empty());
   CHECK(building.open_solids.empty());
   for (const auto& [id, volume_m3] : solids) {

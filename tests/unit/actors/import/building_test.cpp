@@ -34,7 +34,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-Building building_from(const TemporaryFolder& folder, SmallIfc& small) {
+IfcBuilding building_from(const TemporaryFolder& folder, SmallIfc& small) {
   const std::string text = small.text();
   const fs::path file = folder.write("small.ifc", text);
   return building_of_text(text, file);
@@ -138,7 +138,7 @@ TEST_CASE("a product far from all others is left out and named", "[import]") {
   add(small.north_guid, {0, 0, 0});
   add(small.door_guid, {5, 0, 0});
   add(small.lamp_guid, {500'000, 5'000'000, 0});
-  const Building building = building_of(model.value(), shapes);
+  const IfcBuilding building = building_of(model.value(), shapes);
   size_t parts = 0;
   for (const BuildingStorey& storey : building.storeys) parts += storey.parts.size();
   CHECK(parts == 2);
@@ -163,7 +163,7 @@ TEST_CASE("an open solid is listed, and its part is marked in the scene", "[impo
   part.mesh.triangles.resize(10);
   shapes.parts.push_back(part);
   shapes.open[small.north_guid] = 2.5;
-  const Building building = building_of(model.value(), shapes);
+  const IfcBuilding building = building_of(model.value(), shapes);
   REQUIRE(building.open_solids.size() == 1);
   CHECK(building.open_solids[0].guid == small.north_guid);
   const auto written = write_building(building, (folder / "house").string(), "");
@@ -200,7 +200,7 @@ TEST_CASE("luminaires without a shape, lamps and things called lights are offere
     part.mesh = block({x, 1, 2.95}, {x + 0.6, 1.2, 3});
     shapes.parts.push_back(part);
   }
-  const Building building = building_of(model.value(), shapes);
+  const IfcBuilding building = building_of(model.value(), shapes);
   std::vector<std::string> names;
   for (const BuildingFixture& fixture : building.fixtures) names.push_back(fixture.name);
   CHECK(names == std::vector<std::string>{"bare", "lamp", "Lighting Fixture 7", "tubes"});
@@ -301,7 +301,7 @@ TEST_CASE("types with one name in two families stay two", "[import]") {
     small.lamp_name = name;
     const auto model = ifc_model_of(small.text(), "small.ifc");
     REQUIRE(model.ok());
-    const Building building = building_of(model.value(), IfcShapes{});
+    const IfcBuilding building = building_of(model.value(), IfcShapes{});
     REQUIRE(building.fixtures.size() == 2);
     return building.fixtures[0].type;
   };
@@ -317,7 +317,7 @@ TEST_CASE("a type whose file cannot be used is left to the user, with the reason
   SmallIfc small;
   const auto model = ifc_model_of(small.text(), "small.ifc");
   REQUIRE(model.ok());
-  const Building building = building_of(model.value(), IfcShapes{});
+  const IfcBuilding building = building_of(model.value(), IfcShapes{});
   const auto written =
       write_building(building, (folder / "house").string(), (folder / "lights").string());
   REQUIRE(written.ok());
@@ -333,7 +333,7 @@ TEST_CASE("a sign and a luminaire may have types of the same name", "[import]") 
   SmallIfc small;
   const auto model = ifc_model_of(small.text(), "small.ifc");
   REQUIRE(model.ok());
-  Building building = building_of(model.value(), IfcShapes{});
+  IfcBuilding building = building_of(model.value(), IfcShapes{});
   REQUIRE(building.fixtures.size() == 2);
   REQUIRE(building.fixtures[1].is_sign);
   building.fixtures[1].type = building.fixtures[0].type;
@@ -357,7 +357,7 @@ TEST_CASE("control characters of a model do not reach the terminal", "[import]")
   SmallIfc small;
   const auto model = ifc_model_of(small.text(), "small.ifc");
   REQUIRE(model.ok());
-  Building building = building_of(model.value(), IfcShapes{});
+  IfcBuilding building = building_of(model.value(), IfcShapes{});
   building.unread.push_back("#7 has the GlobalId \x1b[2Jabc");
   building.differences.push_back({"\x1b]0;", "wall\x07", 7, 1, 2});
   building.schema = "IFC4\x1b[31m";
@@ -378,7 +378,7 @@ TEST_CASE("faults that are not listed are counted", "[import]") {
   REQUIRE(model.ok());
   CHECK(model->more_faults == 130 - model->faults.size());
   CHECK(model->faults.size() == limits::step_faults);
-  const Building building = building_of(model.value(), IfcShapes{});
+  const IfcBuilding building = building_of(model.value(), IfcShapes{});
   CHECK(std::count(building.unread.begin(), building.unread.end(),
                    "30 more faults of the model, which are not listed") == 1);
 }
@@ -426,7 +426,7 @@ TEST_CASE("a model's parts are placed correctly, in millimetres, in feet and far
     if (far) small.site = {500'000, -4'200'000, 350};
     small.wall_volume_m3 = 5.4 * 0.2 * 3;
     const TemporaryFolder folder;
-    const Building building = building_from(folder, small);
+    const IfcBuilding building = building_from(folder, small);
     INFO("far " << far);
     const Bounds north = bounds_of(part_with(building, small.north_guid).mesh);
     CHECK(glm::length(north.low - small.site - glm::dvec3(-0.2, 4, 1)) < 1e-3);
@@ -487,7 +487,7 @@ TEST_CASE("a wrong volume and a missing ceiling are reported", "[import]") {
   small.wall_volume_m3 = 3;
   small.with_ceiling = false;
   const TemporaryFolder folder;
-  const Building building = building_from(folder, small);
+  const IfcBuilding building = building_from(folder, small);
   REQUIRE(building.differences.size() == 1);
   CHECK(building.differences[0].guid == small.north_guid);
   CHECK(building.differences[0].mesh_m3 == Approx(5.4 * 0.2 * 3).epsilon(1e-4));
@@ -504,7 +504,7 @@ TEST_CASE("a second import updates the building and leaves the user's files unch
   const fs::path out = folder / "house", lights = folder / "lights";
   fs::create_directories(lights);
   std::ofstream(lights / "lamp.ies") << lamp;
-  Building building = building_from(folder, small);
+  IfcBuilding building = building_from(folder, small);
   const auto first = write_building(building, out.string(), lights.string());
   REQUIRE(first.ok());
   CHECK(first->luminaires == 1);

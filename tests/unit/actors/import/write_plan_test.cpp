@@ -122,9 +122,9 @@ TEST_CASE("a curve of pieces shorter than a wall is a wall, and marks are told",
 
 TEST_CASE("lines that are long stay as they are, and short ones join where they meet",
           "[import][dxf]") {
-  const PlanLine lines[] = {{{0, 0}, {1, 0}},       {{1, 0}, {1.01, 0}}, {{1.02, 0}, {1.01, 0}},
-                            {{1.03, 0}, {1.02, 0}}, {{1.03, 0}, {2, 0}}, {{5, 5}, {5.01, 5}},
-                            {{6, 6}, {6.0001, 6}}};
+  const DrawnLine lines[] = {{{0, 0}, {1, 0}},       {{1, 0}, {1.01, 0}}, {{1.02, 0}, {1.01, 0}},
+                             {{1.03, 0}, {1.02, 0}}, {{1.03, 0}, {2, 0}}, {{5, 5}, {5.01, 5}},
+                             {{6, 6}, {6.0001, 6}}};
   const JoinedLines joined = join_short_lines(lines);
   REQUIRE(joined.lines.size() == 4);
   CHECK(joined.lines[0].to.x == 1);

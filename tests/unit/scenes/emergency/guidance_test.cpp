@@ -143,7 +143,8 @@ TEST_CASE(
   CHECK(caught.end == GuidedWalk::End::lost);
   CHECK(caught.at_m == 10);
   CHECK(caught.at_s == 10);
-  const GuidedWalk late = walk(route, 1, 1);  // at 10 m at 11 s, between a guided and an unguided state
+  const GuidedWalk late =
+      walk(route, 1, 1);  // at 10 m at 11 s, between a guided and an unguided state
   CHECK(late.end == GuidedWalk::End::lost);
   CHECK(late.at_m == 10);
   CHECK(late.at_s == 11);

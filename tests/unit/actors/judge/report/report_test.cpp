@@ -419,7 +419,7 @@ TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[
 TEST_CASE("every record of a plan in DXF has a handle of its own and an owner that is there",
           "[report]") {
   const TemporaryFolder folder;
-  const Json& a = assessed_json();
+  const AssessmentRecord& a = room_record();
   REQUIRE(write_plan_dxf(folder / "plan.dxf", a, Schedule(a), 0).ok());
   const auto text = read_regular_file(folder / "plan.dxf", 1 << 24);
   REQUIRE(text.ok());

@@ -9,18 +9,18 @@
 
 using namespace luxodus;
 
-TEST_CASE("the quantum of light is a power of two that follows the flux of a scene",
+TEST_CASE("the quantum of light is a power of two that follows how bright a scene is",
           "[transport][values]") {
-  for (const double flux : {1.0, 70.0, 1e6, 0.0})
-    CHECK(light_quantum_of(flux) == limits::value_quantum);
-  for (const double flux : {1e-9, 0.5, 1.5e6, 1e9, 1e12}) {
-    const double quantum = light_quantum_of(flux);
-    INFO(flux << " lm");
+  for (const double level : {1e-4, 70.0, 1e4, 0.0})
+    CHECK(light_quantum_of(level) == limits::value_quantum);
+  for (const double level : {1e-12, 0.5e-4, 1.5e4, 1e9, 1e12}) {
+    const double quantum = light_quantum_of(level);
+    INFO(level << " lx");
     int exponent = 0;
     CHECK(std::frexp(quantum, &exponent) == 0.5);
-    // A scene's flux is 2^39 to 2^61 quanta.
-    CHECK(flux / quantum >= 0x1p39);
-    CHECK(flux / quantum <= 0x1p61);
+    // A scene's level is 2^26 to 2^54 quanta, of the 2^62 that a score holds.
+    CHECK(level / quantum >= 0x1p26);
+    CHECK(level / quantum <= 0x1p54);
   }
 }
 
