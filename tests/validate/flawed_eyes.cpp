@@ -124,12 +124,13 @@ class FlawedEyes final : public BatchTracer {
 
 class RepeatedBatches final : public BatchTracer {
  public:
-  explicit RepeatedBatches(std::unique_ptr<BatchTracer> tracer) : tracer_(std::move(tracer)) {}
+  RepeatedBatches(std::unique_ptr<BatchTracer> tracer, int64_t batch_particles)
+      : tracer_(std::move(tracer)), batch_particles_(static_cast<uint64_t>(batch_particles)) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
     // The first batch of every four: numbers within a group begin at a power of two.
-    const auto four = 4 * static_cast<uint64_t>(count);
-    tracer_->trace(group, first - first % four, count, scores);
+    const uint64_t batches_on = first / batch_particles_ % 4;
+    tracer_->trace(group, first - batches_on * batch_particles_, count, scores);
   }
   uint32_t look_units() const override { return tracer_->look_units(); }
   void look(int64_t batch, uint32_t unit, BatchScores& scores) override {
@@ -138,6 +139,7 @@ class RepeatedBatches final : public BatchTracer {
 
  private:
   std::unique_ptr<BatchTracer> tracer_;
+  uint64_t batch_particles_;
 };
 
 }  // namespace
@@ -159,7 +161,8 @@ LocalRun::MakeTracer eyes_with(EyeFlaw flaw) {
 
 LocalRun::MakeTracer repeated_batches() {
   return [](const CompiledScene& scene, const GeometryAccess& access, uint64_t seed) {
-    return std::make_unique<RepeatedBatches>(make_batch_tracer(scene, access, seed));
+    return std::make_unique<RepeatedBatches>(make_batch_tracer(scene, access, seed),
+                                             scene.batch_particles);
   };
 }
 

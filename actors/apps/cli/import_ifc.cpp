@@ -44,7 +44,7 @@ void print_list(const char* title, const std::vector<std::string>& lines) {
   if (lines.size() > most) std::printf("  ... all in import.txt\n");
 }
 
-void tell(const Building& building, const WrittenBuilding& written, const std::string& out) {
+void tell(const IfcBuilding& building, const WrittenBuilding& written, const std::string& out) {
   std::printf("storeys %zu, parts %zu, door leaves %zu, rooms %zu, luminaires %zu, signs %zu\n",
               building.storeys.size(), written.parts, written.doors, written.rooms,
               written.luminaires, written.signs);
@@ -87,7 +87,7 @@ Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
   }();
   if (!shapes) return shapes.problem();
   ProgressLine line("import");
-  const Building building = building_of(
+  const IfcBuilding building = building_of(
       model.value(), std::move(shapes).value(),
       [&](const std::string& what, double share) { line.show_share(share, ", " + what); });
   const auto written = write_building(building, options.out, options.photometry);

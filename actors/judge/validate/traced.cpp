@@ -67,7 +67,7 @@ std::shared_ptr<const CompiledScene> with_weighted_sums(const CompiledScene& sce
   return out;
 }
 
-/// Wraps another tracer, and after each of its batches scores the weighted sums.
+/// Wraps another tracer, and keeps the weighted sums of a batch's scores.
 class SummingTracer final : public BatchTracer {
  public:
   SummingTracer(std::unique_ptr<BatchTracer> tracer, const CompiledScene& scene,
@@ -85,7 +85,8 @@ class SummingTracer final : public BatchTracer {
             all[layout.score_index(scene_.blocks.*sums_[i].block, t.bin, 0, t.quantity)];
         sum += t.weight * static_cast<double>(score);
       }
-      all[layout.score_index(blocks_[i], 0, 0, 0)] += std::llround(sum);
+      // A batch comes in portions; the scores are those of all so far.
+      all[layout.score_index(blocks_[i], 0, 0, 0)] = std::llround(sum);
     }
   }
   uint32_t look_units() const override { return tracer_->look_units(); }

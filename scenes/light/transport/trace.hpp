@@ -20,7 +20,8 @@ namespace luxodus {
 class BatchTracer {
  public:
   virtual ~BatchTracer() = default;
-  /// Traces particles [first, first + count) of a source group into `scores`.
+  /// Traces particles [first, first + count) of a source group into `scores`: a batch, or a portion
+  /// of one, whose scores add up.
   virtual void trace(int group, uint64_t first, int64_t count, BatchScores& scores) = 0;
   /// The eye paths of a batch number are divided into independent units: parts of signs, and
   /// probes.

@@ -22,7 +22,7 @@ TEST_CASE("every letter and digit except I and 1 is at least a third of its heig
   for (char c : alphabet) {
     const auto lettering = lay_out_text(std::string(1, c), nfpa_letters);
     REQUIRE(lettering.ok());
-    const Letter& letter = lettering->letters.at(0);
+    const LetterShape& letter = lettering->letters.at(0);
     INFO(c);
     CHECK(letter.high.y - letter.low.y == Approx(nfpa_letters.height_m));
     if (c == 'I')
@@ -37,7 +37,7 @@ TEST_CASE("centre lines stay half a stroke inside the letter's box, or run out o
   for (char c : alphabet) {
     const auto lettering = lay_out_text(std::string(1, c), nfpa_letters);
     REQUIRE(lettering.ok());
-    const Letter& letter = lettering->letters.at(0);
+    const LetterShape& letter = lettering->letters.at(0);
     INFO(c);
     glm::dvec2 low(1e9), high(-1e9);
     for (const auto& stroke : letter.strokes) {
