@@ -430,7 +430,8 @@ std::string defined_type(const std::string& line) {
     if (line.rfind(kind, 0) != 0 || line.ends_with(";")) continue;
     const size_t end = line.find_first_not_of(
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", kind.size());
-    return line.substr(kind.size(), end - kind.size());
+    // "Outer::Inner" is nested, and "Form<int>" a specialisation.
+    return end < line.size() && line[end] == ' ' ? line.substr(kind.size(), end - kind.size()) : "";
   }
   return "";
 }

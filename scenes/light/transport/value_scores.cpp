@@ -1,5 +1,6 @@
 #include "scenes/light/transport/value_scores.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/light/tally/batch_scores.hpp"
@@ -7,10 +8,14 @@
 namespace luxodus {
 
 double light_quantum_of(double level) {
-  if (level > limits::bright_level)
-    return std::ldexp(limits::value_quantum, std::ilogb(level / limits::bright_level) + 1);
-  if (level > 0 && level < limits::dark_level)
-    return std::ldexp(limits::value_quantum, std::ilogb(level / limits::dark_level));
+  // Beyond these no scene means anything, and quanta would end as 0 or infinite.
+  constexpr double darkest = 1e-100, brightest = 1e100;
+  if (!(level > 0)) return limits::value_quantum;
+  const double within = std::clamp(level, darkest, brightest);
+  if (within > limits::bright_level)
+    return std::ldexp(limits::value_quantum, std::ilogb(within / limits::bright_level) + 1);
+  if (within < limits::dark_level)
+    return std::ldexp(limits::value_quantum, std::ilogb(within / limits::dark_level));
   return limits::value_quantum;
 }
 

@@ -22,6 +22,8 @@ TEST_CASE("the quantum of light is a power of two that follows how bright a scen
     CHECK(level / quantum >= 0x1p26);
     CHECK(level / quantum <= 0x1p54);
   }
+  for (const double level : {1e-310, 1e300, std::numeric_limits<double>::infinity()})
+    CHECK(std::isnormal(light_quantum_of(level)));
 }
 
 TEST_CASE("a value that no score holds is marked, never cut off", "[transport][values]") {
