@@ -1,7 +1,7 @@
 // Films: the view of a person who walks a route, or a camera move through the scene's cameras,
 // frame by frame, from the flux of one run, or of one run per state of a scene that changes in
-// time. A frame is the filtered picture of a camera, with that camera's own exposure. One call at a
-// time per run.
+// time. A frame is the filtered picture of a camera, with that camera's own exposure or with
+// the one of the options. One call at a time per run.
 #pragma once
 
 #include <filesystem>

@@ -291,6 +291,9 @@ class GrowingViews {
     std::vector<GrowingView*> shown;
     for (GrowingView& view : views_)
       if (view.shown && view.shown_paths != view.written_paths) shown.push_back(&view);
+    // Metered once for the file and for the console.
+    for (GrowingView* const view : shown)
+      view->exposure = view->shown->exposure = shown_exposure(run_, view->camera, *view->shown);
     std::mutex mutex;
     Result<void> outcome;
     const auto write_one = [&](int64_t unit) {
@@ -304,7 +307,6 @@ class GrowingViews {
                  [&] { return write_one; });
     for (GrowingView* const view : shown) {
       view->written_paths = view->shown_paths;
-      view->exposure = shown_exposure(run_, view->camera, *view->shown);
       view->shown.reset();
     }
     return outcome;

@@ -6,7 +6,6 @@
 // only: signs are judged from luminance data. Pure functions; any thread.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "scenes/light/vision/picture.hpp"

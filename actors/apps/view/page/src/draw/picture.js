@@ -343,6 +343,7 @@ export class Picture {
     this.renderer.render(this.marks.scene, this.camera);
   }
 
+  /** Shows the tone pass's picture by this curve; `target`: null for the screen. */
   toneTo(target, curve) {
     this.tone.uniforms.curve.value.fromArray(curveUniform(curve));
     this.pass(this.tone, target);

@@ -15,6 +15,10 @@ function slopeAt(curve, exposed) {
   return (bent(curve, exposed) / exposed) * (1 + (leastSlope - 1) * share);
 }
 
+/** The shoulder's slope at the knee, over that of the straight line to white. */
+const shoulderSlope = (curve) =>
+  (slopeAt(curve, curve.knee) * (curve.white - curve.knee)) / (1 - bent(curve, curve.knee));
+
 /** Screen value, 0 black to 1 white, of an exposed luminance. */
 export function shownBy(curve, exposed) {
   if (!(exposed > 0)) return 0;
@@ -22,7 +26,7 @@ export function shownBy(curve, exposed) {
   if (exposed >= curve.white) return 1;
   const begin = bent(curve, curve.knee);
   const t = (exposed - curve.knee) / (curve.white - curve.knee);
-  const slope = (slopeAt(curve, curve.knee) * (curve.white - curve.knee)) / (1 - begin);
+  const slope = shoulderSlope(curve);
   return begin + ((1 - begin) * slope * t) / (1 + (slope - 1) * t);
 }
 
@@ -38,11 +42,8 @@ export function cameraCurve(white, sign) {
 }
 
 /** The uniform `curve` of toneTools. */
-export function curveUniform(curve) {
-  const begin = bent(curve, curve.knee);
-  const slope = (slopeAt(curve, curve.knee) * (curve.white - curve.knee)) / (1 - begin);
-  return [curve.bend, curve.knee, curve.white, slope];
-}
+export const curveUniform = (curve) =>
+  [curve.bend, curve.knee, curve.white, shoulderSlope(curve)];
 
 /** GLSL; needs `luminance`. `curve`: bend, knee, white, slope of the shoulder. */
 export const toneTools = `
