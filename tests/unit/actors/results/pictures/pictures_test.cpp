@@ -8,7 +8,6 @@
 
 #include "actors/results/pictures/flux_radiance.hpp"
 #include "scenes/formats/images/write_image.hpp"
-#include "scenes/light/transport/packed_scene.hpp"
 #include "tests/kit/read_exr.hpp"
 #include "tests/unit/actors/results/files/display_fixture.hpp"
 
@@ -200,54 +199,6 @@ TEST_CASE("colours of a picture are those of the bands", "[display]") {
   }
   for (int c = 0; c < 3; ++c) CHECK(mean[c] == Approx(exact[c]).epsilon(0.02));
   CHECK(mean[3] == Approx(scotopic).epsilon(0.02));
-}
-
-TEST_CASE("a patch with few counts has the colour of its surface, at its own luminance",
-          "[display]") {
-  std::string sphere =
-      "[run]\nmax_bands = 4\n" + ulbricht_sphere("[[400, 0.2], [550, 0.4], [700, 0.8]]");
-  sphere.replace(sphere.find("patch_edge_m = 0.5"), 18, "patch_edge_m = 0.1");
-  /// Largest difference of a band's share of a triangle's luminance from that of all light.
-  const auto furthest = [&](int64_t particles) {
-    const auto run = traced(sphere, particles);
-    const CompiledScene& scene = run->scene();
-    const auto flux = flux_radiance(*run);
-    std::vector<std::array<double, 4>> shares;
-    std::array<double, 4> mean{};
-    const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
-      for (const TriangleRecord& t : cell.triangles) {
-        Hit hit;
-        hit.triangle = &t;
-        hit.u = hit.v = 0.3f;
-        // The sphere is seen from within.
-        for (const bool front : {false, true}) {
-          std::array<double, 4> lit{};
-          double sum = 0;
-          for (size_t b = 0; b < 4; ++b) {
-            lit[b] = flux->of_surface(hit, front, static_cast<int>(b)) *
-                     scene.bands[static_cast<int>(b)].lm_per_w;
-            sum += lit[b];
-          }
-          if (!(sum > 0)) continue;
-          for (size_t b = 0; b < 4; ++b) {
-            lit[b] /= sum;
-            mean[b] += lit[b];
-          }
-          shares.push_back(lit);
-        }
-      }
-    });
-    REQUIRE(read.ok());
-    double most = 0;
-    for (const auto& share : shares)
-      for (size_t b = 0; b < 4; ++b)
-        most = std::max(most, std::abs(share[b] - mean[b] / static_cast<double>(shares.size())));
-    return most;
-  };
-  // A few particles per patch: each would have the colour of one or two bands, half the light off.
-  const double few = furthest(1 << 12);
-  INFO("furthest " << few);
-  CHECK(few < 0.08);
 }
 
 TEST_CASE("white smoke in a box of uniform light is invisible", "[display]") {
