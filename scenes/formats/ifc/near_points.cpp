@@ -75,9 +75,8 @@ class NearPoints {
     }
   }
 
-  std::optional<std::string> text() const {
-    return moved_ > 0 && !draft_.is_full() ? std::optional(draft_.text()) : std::nullopt;
-  }
+  size_t moved_shapes() const { return moved_; }
+  const StepDraft& draft() const { return draft_; }
 
  private:
   std::vector<std::string> words_of_parameters(uint64_t id) const {
@@ -94,9 +93,20 @@ class NearPoints {
     return glm::round(*point);
   }
 
-  /// The first point of a shape, in the space of the node that refers to it.
+  /// The first point of a shape, in the space of the node that refers to it. Remembered, since
+  /// nodes may form a graph with exponentially many ways through it; that there is none is known
+  /// only as deep as was searched.
   std::optional<glm::dvec3> point_of(const StepNode& node, int depth) {
     if (!node || depth > max_depth) return std::nullopt;
+    const auto [known, fresh] = first_points_.try_emplace(node.id());
+    FirstPoint& first = known->second;
+    if (!fresh && (first.point || depth >= first.depth)) return first.point;
+    first.depth = depth;
+    first.point = found_point(node, depth);
+    return first.point;
+  }
+
+  std::optional<glm::dvec3> found_point(const StepNode& node, int depth) {
     if (node.is("IFCCARTESIANPOINT")) return vector_of(node, glm::dvec3(0));
     if (node.type().starts_with("IFCCARTESIANPOINTLIST")) {
       const auto& rows = node.at(0).items;
@@ -134,7 +144,7 @@ class NearPoints {
   /// A copy whose points are moved by -`by`; the instance itself if it has none.
   uint64_t moved(uint64_t id, const glm::dvec3& by, int depth) {
     const StepNode node = graph_.node(id);
-    if (!node || depth > max_depth) return id;
+    if (!node || depth > max_depth || draft_.is_full()) return id;
     const auto key = std::pair(id, std::array<double, 3>{by.x, by.y, by.z});
     if (const auto known = copies_.find(key); known != copies_.end()) return known->second;
     copies_[key] = id;
@@ -251,21 +261,29 @@ class NearPoints {
     return out;
   }
 
+  struct FirstPoint {
+    int depth = 0;  // of the search that found it, or nothing
+    std::optional<glm::dvec3> point;
+  };
+
   StepGraph graph_;
   StepDraft draft_;
   double far_;
   size_t moved_ = 0;
+  std::map<uint64_t, FirstPoint> first_points_;  // by instance
   std::map<std::pair<uint64_t, std::array<double, 3>>, uint64_t> copies_;
 };
 
 }  // namespace
 
-std::optional<std::string> with_near_points(const StepFile& file, const IfcModel& model) {
+NearPointsText with_near_points(const StepFile& file, const IfcModel& model) {
   NearPoints near(file, limits::ifc_far_m / model.metres_per_unit);
   for (const IfcProduct& product : model.products)
     if (product.has_shape) near.move(product.id);
   near.copy_styles();
-  return near.text();
+  if (near.draft().is_full()) return {std::nullopt, near.moved_shapes()};
+  if (near.moved_shapes() == 0) return {};
+  return {near.draft().text(), 0};
 }
 
 }  // namespace luxodus

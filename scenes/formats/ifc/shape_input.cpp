@@ -47,10 +47,16 @@ class ShapeInput {
       note("some items are too large to be rewritten for the library, and have no shape");
     auto file = StepFile::of(draft_.text(), model_.file);
     if (!file) return file.problem();
-    if (const auto near = with_near_points(file.value(), model_)) {
-      file = StepFile::of(*near, model_.file);
+    const NearPointsText near = with_near_points(file.value(), model_);
+    if (near.file) {
+      file = StepFile::of(*near.file, model_.file);
       if (!file) return file.problem();
     }
+    if (near.left_far > 0)
+      note(
+          fmt::format("{} shapes far from the origin of their product are too large to be moved "
+                      "near it, and are rounded",
+                      near.left_far));
     return IfcShapeInput{std::move(file).value(), std::move(notes_)};
   }
 
