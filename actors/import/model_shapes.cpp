@@ -175,9 +175,9 @@ Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
   const auto input = ifc_shape_input(step, model);
   if (!input) return input.problem();
   auto shapes = computed(input->file, script, seconds, reading, {}, model.file);
-  const bool none = !shapes && shapes.problem().what.starts_with(no_shapes_words);
-  if (!shapes && !none) return shapes;
-  IfcShapes out = none ? IfcShapes{} : std::move(shapes).value();
+  if (!shapes) return shapes.problem();
+  IfcShapes out = std::move(shapes).value();
+  const bool none = out.parts.empty();
   Expected expected{ifc_solid_volumes(input->file, model), {}};
   for (const IfcProduct& product : model.products)
     if (is_tested(product)) expected.solids.emplace(product.guid, product.id);
@@ -188,7 +188,9 @@ Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
     auto second = computed(mended->file, script, seconds, nullptr, only, model.file);
     if (second) replace_shapes(out, std::move(second).value(), expected, mended->products);
   }
-  if (none && out.parts.empty()) return shapes;
+  if (none && out.parts.empty())
+    return problem_in(model.file, "the model has no shapes: export it with geometry" +
+                                      (out.notes.empty() ? "" : " (" + out.notes.front() + ")"));
   out.notes.insert(out.notes.begin(), input->notes.begin(), input->notes.end());
   add_notes(out, expected);
   return out;
