@@ -401,16 +401,6 @@ std::vector<glm::dvec2> points_within(const std::vector<glm::dvec2>& outline) {
 
 }  // namespace
 
-bool is_within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
-  bool inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const glm::dvec2 a = outline[i], b = outline[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
-      inside = !inside;
-  }
-  return inside;
-}
-
 namespace {
 
 /// A level of a floor: heights within its tolerance of each other.

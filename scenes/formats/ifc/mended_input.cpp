@@ -73,9 +73,8 @@ class Mender {
     std::string more;
     for (const uint64_t item : graph_.node(id).references(3))
       any = mend_item(graph_.node(item), depth, more) || any;
-    const auto parameters = draft_.parameters(id);
-    if (more.empty() || parameters.size() < 4 || parameters[3].size() < 2) return any;
-    std::vector<std::string> words(parameters.begin(), parameters.end());
+    auto words = draft_.copied_parameters(id);
+    if (more.empty() || words.size() < 4 || words[3].size() < 2) return any;
     words[3].insert(words[3].size() - 1, more);
     draft_.replace(id, std::string(draft_.type(id)), joined_parameters(words));
     return any;
@@ -93,8 +92,7 @@ class Mender {
       const uint64_t brep = draft_.add("IFCFACETEDBREP", brep_body(draft_, parts[i]));
       more += ",#" + std::to_string(brep);
       if (const auto style = styles_.find(item.id()); style != styles_.end()) {
-        const auto parameters = draft_.parameters(style->second);
-        std::vector<std::string> words(parameters.begin(), parameters.end());
+        auto words = draft_.copied_parameters(style->second);
         words[0] = "#" + std::to_string(brep);
         draft_.add("IFCSTYLEDITEM", joined_parameters(words));
       }
