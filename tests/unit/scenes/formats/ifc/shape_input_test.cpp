@@ -381,6 +381,30 @@ TEST_CASE("points far from their product are moved near it, and the product back
   }
 }
 
+TEST_CASE("swept surfaces are moved by their placement, not by their profile", "[ifc]") {
+  const glm::dvec3 far(500'000'000, 5'000'000'000, 0);
+  StepText text;
+  const std::string line = text.add("IFCPOLYLINE((" + text.point(glm::dvec2(1000, 0)) + "," +
+                                    text.point(glm::dvec2(1000, 500)) + "))");
+  const std::string profile = text.add("IFCARBITRARYOPENPROFILEDEF(.CURVE.,$," + line + ")");
+  const std::string place = text.axes(far), up = text.direction({0, 0, 1});
+  const std::string axis = text.add("IFCAXIS1PLACEMENT(" + text.point({0, 0, 0}) + "," + up + ")");
+  const std::vector<std::string> walls{
+      text.wall(
+          text.add("IFCSURFACEOFLINEAREXTRUSION(" + profile + "," + place + "," + up + ",3000.)")),
+      text.wall(text.add("IFCSURFACEOFREVOLUTION(" + profile + "," + place + "," + axis + ")"))};
+  const Prepared p = prepared(text.text());
+  StepGraph graph(p.file);
+  for (const std::string& wall : walls) {
+    const StepNode shape = graph.follow(node_in(p.file, graph, wall), 6);
+    const StepNode item = graph.node(graph.node(shape.references(2).at(0)).references(3).at(0));
+    INFO(item.type());
+    CHECK(item.reference(0) == id_of(profile));
+    // The first point of the profile is the origin to which the shape is moved.
+    CHECK(graph.follow(graph.follow(item, 1), 0).numbers(0) == std::vector<double>{-1000, 0, 0});
+  }
+}
+
 TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
   const uint64_t seed = asked_number("LUXODUS_SEED", 1);
   const uint64_t tries = asked_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 2'000);
