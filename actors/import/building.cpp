@@ -13,6 +13,7 @@
 
 #include "actors/import/import_files.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/geometry/polygon.hpp"
 
 namespace luxodus {
 namespace {

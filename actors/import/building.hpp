@@ -154,9 +154,6 @@ struct FloorOutline {
 /// below limits::smallest_floor_m2 are left out.
 std::vector<FloorOutline> floor_outlines(const Mesh& mesh);
 
-/// Whether a point lies within an outline (crossings of a ray to +x).
-bool is_within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p);
-
 /// Casts rays at the parts of storeys, which outlive it. A tree of their boxes in double precision
 /// finds parts: a model may be far from its origin.
 class PartRays {

@@ -401,41 +401,48 @@ std::vector<glm::dvec2> points_within(const std::vector<glm::dvec2>& outline) {
 
 }  // namespace
 
-bool is_within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
-  bool inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const glm::dvec2 a = outline[i], b = outline[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
-      inside = !inside;
+namespace {
+
+/// A level of a floor: heights within its tolerance of each other.
+struct FloorLevel {
+  size_t points = 0;
+  double top_m = 0;
+};
+
+/// The level with the most of these heights, the lowest of several. A window that slides over the
+/// sorted heights: fixed bins would divide a level that lies on the edge between two.
+FloorLevel main_level(std::vector<double> heights_m) {
+  constexpr double level_m = 0.01;
+  std::sort(heights_m.begin(), heights_m.end());
+  FloorLevel best;
+  size_t first = 0;
+  for (size_t last = 0; last < heights_m.size(); ++last) {
+    while (heights_m[last] - heights_m[first] > level_m) ++first;
+    if (last + 1 - first > best.points) best = {last + 1 - first, heights_m[last]};
   }
-  return inside;
+  return best;
 }
+
+}  // namespace
 
 void set_on_floor(const PartRays& solids, BuildingRoom& room) {
   // Raised floors end below a metre, and a slab may lie half a metre below the space.
-  constexpr double from_m = 1, under_m = 0.5, level_m = 0.01;
+  constexpr double from_m = 1, under_m = 0.5;
   const double up = std::min(room.height_m / 2, from_m);
   const auto points = points_within(room.outline);
-  std::map<int64_t, std::pair<int, double>> levels;  // rays, and the highest of their floors
-  int found = 0;
+  std::vector<double> heights_m;
   for (const glm::dvec2& p : points) {
     const double from = room.z_m + up;
     const auto way = solids.first(glm::dvec3(p, from), {0, 0, -1});
-    if (!way || *way > up + under_m) continue;
-    ++found;
-    auto& [rays, highest] =
-        levels.try_emplace(std::llround((from - *way) / level_m), 0, -1e300).first->second;
-    ++rays;
-    highest = std::max(highest, from - *way);
+    if (way && *way <= up + under_m) heights_m.push_back(from - *way);
   }
-  if (points.empty() || found == 0) return;
-  const auto most = std::max_element(
-      levels.begin(), levels.end(),
-      [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
-  room.floor_share = static_cast<double>(found) / static_cast<double>(points.size());
-  room.level_share = static_cast<double>(most->second.first) / found;
-  room.height_m -= most->second.second - room.z_m;
-  room.z_m = most->second.second;
+  if (heights_m.empty()) return;
+  const auto found = static_cast<double>(heights_m.size());
+  const FloorLevel level = main_level(std::move(heights_m));
+  room.floor_share = found / static_cast<double>(points.size());
+  room.level_share = static_cast<double>(level.points) / found;
+  room.height_m -= level.top_m - room.z_m;
+  room.z_m = level.top_m;
 }
 
 void look_for_openings(const PartRays& solids, BuildingRoom& room) {

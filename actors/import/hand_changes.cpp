@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <string_view>
+
+#include "runtime/core/text.hpp"
 
 namespace luxodus {
 
@@ -11,8 +14,9 @@ namespace {
 
 /// A table with what follows it, up to the next; the part before the first has no key.
 struct Block {
-  std::string key;  // kind, GlobalId, and how many of these came before; "" if it has no GlobalId
-  std::string name;
+  std::string key;   // kind, GlobalId, and how many of these came before; "" if it has no GlobalId
+  std::string head;  // "[[import]]"; "" before the first table
+  std::string name;  // or what the table matches
   std::string_view text;
 };
 
@@ -38,14 +42,16 @@ std::vector<Block> blocks_of(std::string_view text) {
   for (size_t from = 0; from < text.size();) {
     size_t end = text.find("\n[[", from + 1);
     end = end == std::string_view::npos ? text.size() : end + 1;
-    Block block{{}, {}, text.substr(from, end - from)};
+    Block block{{}, {}, {}, text.substr(from, end - from)};
+    if (block.text.starts_with("[[")) block.head = block.text.substr(0, block.text.find("]]") + 2);
+    block.name = quoted_after(block.text, "name = ");
+    if (block.name.empty()) block.name = quoted_after(block.text, "match = ");
     const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                    [&](std::string_view k) { return block.text.starts_with(k); });
     const std::string guid = quoted_after(block.text, "ifc_guid = ");
     if (kind != kinds.end() && !guid.empty()) {
       const std::string key = std::string(*kind) + " " + guid;
       block.key = key + " " + std::to_string(++count[key]);
-      block.name = quoted_after(block.text, "name = ");
     }
     out.push_back(std::move(block));
     from = end;
@@ -53,19 +59,44 @@ std::vector<Block> blocks_of(std::string_view text) {
   return out;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const size_t end = text.find_last_not_of(" \t\r\n");
-  return end == std::string_view::npos ? std::string_view() : text.substr(0, end + 1);
+/// Without comments: that before the first table names the file of the model, and others state
+/// elevations.
+std::string settings_of(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    if (line[line.find_first_not_of(" \t")] != '#') out += std::string(trimmed(line)) + "\n";
+  }
+  return out;
+}
+
+/// Tables that a person has changed or added, and that the text to be written does not have.
+std::vector<std::string> lost_changes(const std::vector<Block>& now,
+                                      const std::vector<Block>& written, const std::string& text) {
+  std::set<std::string> known;
+  for (const std::vector<Block>& blocks : {written, blocks_of(text)})
+    for (const Block& block : blocks) known.insert(settings_of(block.text));
+  std::vector<std::string> out;
+  for (const Block& block : now)
+    if (!known.contains(settings_of(block.text)))
+      out.push_back(
+          "not kept: " + (block.head.empty() ? "the lines before the first table" : block.head) +
+          (block.name.empty() ? "" : " \"" + block.name + "\"") +
+          "; make the change in scene.toml");
+  return out;
 }
 
 }  // namespace
 
 HandChanges with_hand_changes(const std::string& fresh, const std::string& now,
                               const std::string& written) {
+  const std::vector<Block> all_now = blocks_of(now), all_written = blocks_of(written);
   std::map<std::string, Block> in_now, in_written;
-  for (Block& block : blocks_of(now))
+  for (const Block& block : all_now)
     if (!block.key.empty()) in_now.emplace(block.key, block);
-  for (Block& block : blocks_of(written))
+  for (const Block& block : all_written)
     if (!block.key.empty()) in_written.emplace(block.key, block);
   HandChanges out;
   for (const Block& block : blocks_of(fresh)) {
@@ -85,6 +116,8 @@ HandChanges with_hand_changes(const std::string& fresh, const std::string& now,
       out.text += block.text;
     }
   }
+  for (std::string& note : lost_changes(all_now, all_written, out.text))
+    out.notes.push_back(std::move(note));
   return out;
 }
 

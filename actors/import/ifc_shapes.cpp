@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
 
@@ -224,9 +223,7 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
                       "its shapes are computed by the npm package @ifc-lite/wasm, which is "
                       "not installed beside " +
                           script.string() + ": run ./setup.sh, or 'npm ci' in that folder");
-  if (code.value() == no_shapes)
-    return problem_in(file, std::string(no_shapes_words) + ": export it with geometry" +
-                                (said.notes.empty() ? "" : " (" + said.notes.front() + ")"));
+  if (code.value() == no_shapes) return IfcShapes{{}, said.notes, said.uncut, {}, {}};
   if (code.value() != 0)
     return problem_in(file, "its shapes cannot be computed: " + complaint(err));
   auto parts = import_mesh(glb.string(), 1, UpAxis::y);

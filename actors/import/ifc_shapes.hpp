@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -20,7 +19,7 @@ class ReadingShare;
 
 struct IfcShapes {
   /// One part or several for each product: `name` begins with its GlobalId, up to a '#'. Scene axes
-  /// [m], in double.
+  /// [m], in double. None of a model without shapes, which `notes` may explain.
   std::vector<ImportedPart> parts;
   std::vector<std::string> notes;      // messages about what could not be computed
   std::map<uint64_t, uint64_t> uncut;  // number of a product, of its openings that were not cut
@@ -28,17 +27,14 @@ struct IfcShapes {
   std::set<std::string> nothing;       // GlobalIds of solids that cut themselves away entirely
 };
 
-/// The beginning of the problem that a model without shapes is.
-inline constexpr std::string_view no_shapes_words = "the model has no shapes";
-
 /// Opacity of a part, from the name of its material; 1 if that states none.
 double opacity_of(const ImportedPart& part);
 
 /// `script`: ifc_shapes.mjs, with node_modules beside it. `seconds`: time limit of the process.
 /// `reading`, where given, receives twice a second the share of the model's products that are done.
 /// `only`: numbers of the products whose shapes are wanted; empty for all.
-/// Errors: no Node.js, no package, time limit exceeded, a model without shapes, an answer that is
-/// malformed or lacks the position of a shape.
+/// Errors: no Node.js, no package, time limit exceeded, an answer that is malformed or lacks the
+/// position of a shape.
 Result<IfcShapes> ifc_shapes(const std::filesystem::path& model,
                              const std::filesystem::path& script, double seconds,
                              ReadingShare* reading = nullptr,
@@ -46,7 +42,7 @@ Result<IfcShapes> ifc_shapes(const std::filesystem::path& model,
 
 /// Shapes of a model from its exchange file, made ready for the library. Solids that come back open
 /// or lost are cut by half spaces here and computed again; those that remain open are in `open`.
-/// Errors: as ifc_shapes.
+/// Errors: as ifc_shapes, a model without shapes.
 Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
                                   const std::filesystem::path& script, double seconds,
                                   ReadingShare* reading = nullptr);

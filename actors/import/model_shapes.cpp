@@ -65,20 +65,20 @@ bool is_tested(const IfcProduct& product) {
 
 /// What is known of a model's solids before the library computes them.
 struct Expected {
-  std::map<uint64_t, IfcSolidVolume> volumes;
+  IfcSolidVolumes volumes;
   std::map<std::string, uint64_t> solids;  // GlobalIds and numbers of the products to be tested
 
   /// Whether a shape has the volume that its solids have, where that is known.
   bool fits(uint64_t product, double volume_m3) const {
-    const auto known = volumes.find(product);
-    return known == volumes.end() || known->second.has_openings ||
+    const auto known = volumes.known.find(product);
+    return known == volumes.known.end() || known->second.has_openings ||
            std::abs(volume_m3 - known->second.m3) <= volume_tolerance * known->second.m3;
   }
   /// Whether its own half spaces cut a product away entirely.
   bool is_nothing(uint64_t product) const {
     constexpr double nothing_m3 = 1e-9;
-    const auto known = volumes.find(product);
-    return known != volumes.end() && known->second.m3 < nothing_m3;
+    const auto known = volumes.known.find(product);
+    return known != volumes.known.end() && known->second.m3 < nothing_m3;
   }
 };
 
@@ -142,6 +142,11 @@ std::set<uint64_t> doubtful(IfcShapes& shapes, const Expected& expected) {
 }
 
 void add_notes(IfcShapes& shapes, const Expected& expected) {
+  if (expected.volumes.beyond_budget > 0)
+    shapes.notes.push_back(
+        fmt::format("the solids of {} products take too much work to be computed a second time: "
+                    "the volumes of their shapes are not tested",
+                    expected.volumes.beyond_budget));
   size_t told = 0;
   for (const auto& [product, count] : shapes.uncut)
     if (++told <= max_named)
@@ -154,7 +159,7 @@ void add_notes(IfcShapes& shapes, const Expected& expected) {
     if (++told <= max_named)
       shapes.notes.push_back(
           fmt::format("#{} ({}) has a shape of {:.4g} m3, and solids of {:.4g} m3", product, guid,
-                      volume->second, expected.volumes.at(product).m3));
+                      volume->second, expected.volumes.known.at(product).m3));
   }
   if (told > max_named)
     shapes.notes.push_back(
@@ -170,9 +175,9 @@ Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
   const auto input = ifc_shape_input(step, model);
   if (!input) return input.problem();
   auto shapes = computed(input->file, script, seconds, reading, {}, model.file);
-  const bool none = !shapes && shapes.problem().what.starts_with(no_shapes_words);
-  if (!shapes && !none) return shapes;
-  IfcShapes out = none ? IfcShapes{} : std::move(shapes).value();
+  if (!shapes) return shapes.problem();
+  IfcShapes out = std::move(shapes).value();
+  const bool none = out.parts.empty();
   Expected expected{ifc_solid_volumes(input->file, model), {}};
   for (const IfcProduct& product : model.products)
     if (is_tested(product)) expected.solids.emplace(product.guid, product.id);
@@ -183,7 +188,9 @@ Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
     auto second = computed(mended->file, script, seconds, nullptr, only, model.file);
     if (second) replace_shapes(out, std::move(second).value(), expected, mended->products);
   }
-  if (none && out.parts.empty()) return shapes;
+  if (none && out.parts.empty())
+    return problem_in(model.file, "the model has no shapes: export it with geometry" +
+                                      (out.notes.empty() ? "" : " (" + out.notes.front() + ")"));
   out.notes.insert(out.notes.begin(), input->notes.begin(), input->notes.end());
   add_notes(out, expected);
   return out;

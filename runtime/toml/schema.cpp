@@ -4,15 +4,11 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "runtime/core/text.hpp"
+
 namespace luxodus::toml {
 
 namespace {
-
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
-  while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
-  return s;
-}
 
 std::optional<double> number_of(std::string_view s) {
   s = trimmed(s);

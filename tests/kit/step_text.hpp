@@ -12,9 +12,13 @@ namespace luxodus::test {
 
 class StepText {
  public:
-  explicit StepText(std::string schema = "IFC4") : schema_(std::move(schema)) {
+  enum class Angles { degrees, radians, unstated };
+
+  explicit StepText(std::string schema = "IFC4", Angles angles = Angles::degrees)
+      : schema_(std::move(schema)) {
     const std::string length = add("IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)");
-    const std::string units = add("IFCUNITASSIGNMENT((" + length + "))");
+    const std::string angle = angle_unit(angles);
+    const std::string units = add("IFCUNITASSIGNMENT((" + length + angle + "))");
     context_ =
         add("IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5," + axes({0, 0, 0}) + ",$)");
     body = view("Body", "MODEL_VIEW");
@@ -128,6 +132,17 @@ class StepText {
   }
 
  private:
+  /// ",#NUMBER" of the unit of plane angles.
+  std::string angle_unit(Angles angles) {
+    if (angles == Angles::unstated) return "";
+    const std::string radian = add("IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.)");
+    if (angles == Angles::radians) return "," + radian;
+    const std::string size =
+        add("IFCMEASUREWITHUNIT(IFCPLANEANGLEMEASURE(0.0174532925)," + radian + ")");
+    const std::string none = add("IFCDIMENSIONALEXPONENTS(0,0,0,0,0,0,0)");
+    return "," + add("IFCCONVERSIONBASEDUNIT(" + none + ",.PLANEANGLEUNIT.,'DEGREE'," + size + ")");
+  }
+
   std::string schema_, data_, context_, site_, contained_;
   int next_ = 1;
 };

@@ -2,9 +2,9 @@
 # real_files.sh FOLDER [LUXODUS]: opens every file of a folder that an import reads or a scene may
 # name (FDS, IFC, DXF, meshes, photometry, by extension), each by the program, and prints for each
 # kind how many were opened, refused and warned of, time and memory, then each refused file with its
-# reason. A file that ends the program by a signal, or takes longer than SECONDS_EACH (default 300), is
-# counted apart, and makes this fail. JOBS files are opened at once (default 1). Outside of CI:
-# folders of real files are not in the repository.
+# reason. A file that ends the program by a signal, or takes longer than SECONDS_EACH (default
+# 300), is counted apart, and makes this fail. JOBS files are opened at once (default 1). Outside of
+# CI: folders of real files are not in the repository.
 set -euo pipefail
 
 folder=${1:?usage: real_files.sh FOLDER [LUXODUS]}

@@ -208,7 +208,8 @@ without_times() {
 import json, pathlib, re, sys
 
 timed = {"seconds", "particles_per_second", "rays_per_second", "figure_of_merit", "version",
-         "commit", "slope_seconds", "timed_particles", "search_s", "traced_s", "took", "took_s", "time_s", "elapsed"}
+         "commit", "slope_seconds", "timed_particles", "search_s", "traced_s", "took", "took_s",
+         "time_s", "elapsed"}
 
 seconds_and_rates = re.compile(
     r"[0-9.]+ (s|min|ms|[kM]? ?events/s|over seconds|virtual seconds)\b"

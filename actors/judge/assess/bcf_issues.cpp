@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "actors/judge/texts/texts.hpp"
@@ -13,6 +12,7 @@
 #include "runtime/core/hash.hpp"
 #include "runtime/core/output_text.hpp"
 #include "scenes/emergency/remark.hpp"
+#include "scenes/light/geometry/polygon.hpp"
 
 namespace luxodus {
 
@@ -60,16 +60,6 @@ const Row* row_named(const std::vector<Row>& rows, const std::string& name) {
   return nullptr;
 }
 
-bool is_inside(const std::vector<glm::dvec2>& outline, const glm::dvec3& p) {
-  bool inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const glm::dvec2 &a = outline[i], &b = outline[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
-      inside = !inside;
-  }
-  return inside;
-}
-
 glm::dvec3 middle_of(const AreaRecord& area) {
   glm::dvec2 sum(0);
   for (const glm::dvec2& corner : area.outline) sum += corner;
@@ -82,7 +72,7 @@ const AreaRecord* area_at(const std::vector<AreaRecord>& areas, const glm::dvec3
   for (const AreaRecord& area : areas) {
     const double above = place.z - area.z_m;
     if (is_ifc_guid(area.ifc_guid) && above > -0.1 && above < storey_m &&
-        is_inside(area.outline, place))
+        is_within(area.outline, glm::dvec2(place)))
       return &area;
   }
   return nullptr;

@@ -7,16 +7,12 @@
 #include <cmath>
 
 #include "runtime/core/printable.hpp"
+#include "runtime/core/text.hpp"
 
 namespace luxodus {
 namespace {
 
 constexpr std::string_view dxf_blanks = " \t";
-
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(dxf_blanks), text.size()));
-  return text.substr(0, text.find_last_not_of(dxf_blanks) + 1);
-}
 
 /// Reads all of a word as a number, which may begin with a plus.
 template <class Number>
@@ -51,7 +47,7 @@ bool DxfRecords::next_group(DxfGroup& group) {
   // After the last group there may be blank lines, and the end mark of DOS (1A).
   constexpr std::string_view nothing(" \t\r\n\x1a\0", 6);
   if (text_.find_first_not_of(nothing, at_) == std::string_view::npos) return false;
-  const std::string_view code = trimmed(take_line());
+  const std::string_view code = trimmed(take_line(), dxf_blanks);
   if (!parse_all(code, group.code)) {
     fault_ = problem_in("", line_,
                         fmt::format("a group code is expected here, a whole number, and not \"{}\"",
@@ -59,7 +55,7 @@ bool DxfRecords::next_group(DxfGroup& group) {
     return false;
   }
   if (at_ >= text_.size()) return false;  // cut short after a code
-  group.value = trimmed(take_line());
+  group.value = trimmed(take_line(), dxf_blanks);
   group.line = line_;
   return true;
 }

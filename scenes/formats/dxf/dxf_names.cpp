@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "runtime/core/printable.hpp"
+#include "runtime/core/text.hpp"
 
 namespace luxodus {
 namespace {
@@ -75,19 +76,7 @@ std::optional<uint32_t> hex(std::string_view digits) {
 
 std::string utf8_of(uint32_t code) {
   std::string out;
-  const auto tail = [&](int shift) { out += static_cast<char>(0x80 | ((code >> shift) & 0x3f)); };
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xc0 | code >> 6);
-    tail(0);
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xe0 | code >> 12);
-    tail(6), tail(0);
-  } else {
-    out += static_cast<char>(0xf0 | code >> 18);
-    tail(12), tail(6), tail(0);
-  }
+  append_utf8(out, code);
   return out;
 }
 
@@ -132,7 +121,7 @@ std::string DxfNames::decoded(std::string_view raw) {
     if (const auto text = converted(page, raw)) return *text;
   wrong_.insert(std::string(raw));
   std::string out;
-  for (const char c : raw) out += utf8_of(static_cast<unsigned char>(c));
+  for (const char c : raw) append_utf8(out, static_cast<unsigned char>(c));
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "runtime/core/text.hpp"
 #include "scenes/formats/fields/data_set.hpp"
 
 namespace luxodus::data_set {
@@ -64,11 +65,7 @@ inline bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-inline std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
+using luxodus::trimmed;
 
 inline std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;

@@ -62,7 +62,8 @@ double prefix_factor(std::string_view prefix) {
   return 1;
 }
 
-/// A unit in SI units; `power`: 1 for a length, 3 for a volume. Nothing where it is none.
+/// A unit in SI units; `power`: 1 for a length or an angle, 3 for a volume. Nothing where it is
+/// none.
 std::optional<double> si_factor(StepGraph& graph, const StepNode& unit, int power, int depth = 0) {
   if (depth > 4) return std::nullopt;
   if (unit.is("IFCSIUNIT")) return std::pow(prefix_factor(unit.word(2)), power);
@@ -76,7 +77,7 @@ std::optional<double> si_factor(StepGraph& graph, const StepNode& unit, int powe
 }
 
 struct Units {
-  std::optional<double> length, volume;
+  std::optional<double> length, volume, angle;
 };
 
 Units units_of(StepGraph& graph, const StepNode& project) {
@@ -85,6 +86,7 @@ Units units_of(StepGraph& graph, const StepNode& project) {
     const StepNode unit = graph.node(id);
     if (unit.word(1) == "LENGTHUNIT") out.length = si_factor(graph, unit, 1);
     if (unit.word(1) == "VOLUMEUNIT") out.volume = si_factor(graph, unit, 3);
+    if (unit.word(1) == "PLANEANGLEUNIT") out.angle = si_factor(graph, unit, 1);
   }
   if (!out.volume && out.length) out.volume = std::pow(*out.length, 3);
   return out;
@@ -332,7 +334,7 @@ class ModelReader {
     for (const uint64_t id : shape.references(2))
       if (const auto it = relations_.layers.find(id); it != relations_.layers.end())
         p.layer = it->second;
-    p.light = ifc_light_of(graph_, shape, p.placement, *units_.length);
+    p.light = ifc_light_of(graph_, shape, p.placement, {*units_.length, units_.angle});
   }
 
   const StepFile& step_;

@@ -26,12 +26,25 @@ Transform target_of(StepGraph& graph, const StepNode& node) {
   return out;
 }
 
-void read_planes(StepGraph& graph, const StepNode& distribution, IfcLightSource& light) {
+/// Degrees of angles in the model's unit. Models in radians state four to seven digits of an angle,
+/// so that 90 degrees become 90.0002: converted angles are rounded to 0.01 degrees.
+double degrees_of(double angle, double radian) {
+  const double degrees = radian * 180 / std::numbers::pi;
+  if (std::abs(degrees - 1) < 1e-6) return angle;
+  return std::round(angle * degrees * 100) / 100;
+}
+
+void read_planes(StepGraph& graph, const StepNode& distribution, const IfcLightUnits& units,
+                 IfcLightSource& light) {
   light.type = distribution.word(0);
+  light.knows_angles = units.angle_radian.has_value();
+  const double radian = units.angle_radian.value_or(1);
   size_t intensities = 0;
   for (const uint64_t id : distribution.references(1)) {
     const StepNode data = graph.node(id);
-    IfcLightPlane plane{data.number(0).value_or(0), data.numbers(1), data.numbers(2)};
+    IfcLightPlane plane{degrees_of(data.number(0).value_or(0), radian), data.numbers(1),
+                        data.numbers(2)};
+    for (double& gamma : plane.gammas_deg) gamma = degrees_of(gamma, radian);
     intensities += plane.intensities.size();
     if (intensities > limits::ifc_intensities) {
       light.planes.clear();
@@ -46,12 +59,12 @@ void read_planes(StepGraph& graph, const StepNode& distribution, IfcLightSource&
 
 /// `place`: of the item's coordinates, in metres.
 std::optional<IfcLightSource> light_at(StepGraph& graph, const StepNode& node,
-                                       const Transform& place, double metres_per_unit) {
+                                       const Transform& place, const IfcLightUnits& units) {
   IfcLightSource out;
   if (node.is("IFCLIGHTSOURCEGONIOMETRIC")) {
     out.kind = "goniometric";
     Transform own = axis_placement(graph, graph.follow(node, 4));
-    own.offset *= metres_per_unit;
+    own.offset *= units.metres;
     const Transform whole = place * own;
     out.position = whole.offset;
     out.axis = whole.linear[2];
@@ -59,12 +72,12 @@ std::optional<IfcLightSource> light_at(StepGraph& graph, const StepNode& node,
     out.flux_lm = node.number(7);
     const StepNode data = graph.follow(node, 9);
     if (data.is("IFCLIGHTINTENSITYDISTRIBUTION"))
-      read_planes(graph, data, out);
+      read_planes(graph, data, units, out);
     else
       out.document = data.text(0).empty() ? data.text(2) : data.text(0);
   } else if (node.is("IFCLIGHTSOURCEPOSITIONAL") || node.is("IFCLIGHTSOURCESPOT")) {
     out.kind = node.is("IFCLIGHTSOURCESPOT") ? "spot" : "positional";
-    out.position = place.point(metres_per_unit * vector_of(graph.follow(node, 4), glm::dvec3(0)));
+    out.position = place.point(units.metres * vector_of(graph.follow(node, 4), glm::dvec3(0)));
     if (node.is("IFCLIGHTSOURCESPOT"))
       out.axis = place.vector(vector_of(graph.follow(node, 9), {0, 0, -1}));
   } else if (node.is("IFCLIGHTSOURCEDIRECTIONAL")) {
@@ -99,7 +112,7 @@ double flux_of(const std::vector<IfcLightPlane>& planes) {
   return over > 0 ? 2 * std::numbers::pi * sum / over : 0;
 }
 
-/// Closes a circle that ends before 360 degrees, and checks what IES files can say.
+/// Closes a circle that ends one step before 360 degrees, and checks what IES files can say.
 Result<std::vector<IfcLightPlane>> checked_planes(const IfcLightSource& light) {
   std::vector<IfcLightPlane> planes = light.planes;
   const std::vector<double>& gammas = planes.front().gammas_deg;
@@ -109,15 +122,31 @@ Result<std::vector<IfcLightPlane>> checked_planes(const IfcLightSource& light) {
     for (const double i : plane.intensities)
       if (!(i >= 0)) return problem("an intensity is below 0");
   }
-  if (gammas.size() < 2 || gammas.front() != 0 || gammas.back() < 90 ||
+  const double largest = gammas.empty() ? 0 : *std::max_element(gammas.begin(), gammas.end());
+  if (largest > 360)
+    return problem(
+        fmt::format("its angles are up to {:.5g} degrees by the unit of plane angles "
+                    "that the model states: they seem to be in another",
+                    largest));
+  if (gammas.size() < 2 || gammas.front() != 0 || (gammas.back() != 90 && gammas.back() != 180) ||
       std::adjacent_find(gammas.begin(), gammas.end(), std::greater_equal<>()) != gammas.end())
-    return problem("its angles do not rise from 0 to 90 degrees or more");
-  for (size_t i = 1; i < planes.size(); ++i)
-    if (!(planes[i].angle_deg > planes[i - 1].angle_deg))
-      return problem("two of its planes have one angle");
+    return problem("its angles do not rise from 0 to 90 or 180 degrees");
+  double largest_step = 0;
+  for (size_t i = 1; i < planes.size(); ++i) {
+    const double step = planes[i].angle_deg - planes[i - 1].angle_deg;
+    if (!(step > 0)) return problem("two of its planes have one angle");
+    largest_step = std::max(largest_step, step);
+  }
   if (planes.front().angle_deg != 0) return problem("its first plane is not C0");
   const double last = planes.back().angle_deg;
+  constexpr double rounding = 1e-6;
   if (last > 180 && last < 360) {
+    // The circle is periodic. A wider gap than between other planes is a part that is missing.
+    if (360 - last > largest_step + rounding)
+      return problem(
+          fmt::format("its planes end at C{:g}, and no plane covers the rest of the "
+                      "circle",
+                      last));
     planes.push_back(planes.front());
     planes.back().angle_deg = 360;
   } else if (last != 0 && last != 90 && last != 180 && last != 360) {
@@ -129,12 +158,12 @@ Result<std::vector<IfcLightPlane>> checked_planes(const IfcLightSource& light) {
 }  // namespace
 
 std::optional<IfcLightSource> ifc_light_of(StepGraph& graph, const StepNode& shape,
-                                           const Transform& placement, double metres_per_unit) {
+                                           const Transform& placement, const IfcLightUnits& units) {
   std::optional<IfcLightSource> found;
   size_t looked_at = 0;
   const auto look_at = [&](const StepNode& item, const Transform& place) {
     if (++looked_at > limits::ifc_light_sources) return;
-    auto light = light_at(graph, item, place, metres_per_unit);
+    auto light = light_at(graph, item, place, units);
     if (!light) return;
     if (!found || (found->kind != "goniometric" && light->kind == "goniometric"))
       found = std::move(light);
@@ -147,7 +176,7 @@ std::optional<IfcLightSource> ifc_light_of(StepGraph& graph, const StepNode& sha
         continue;
       }
       Transform target = target_of(graph, graph.follow(item, 1));
-      target.offset *= metres_per_unit;
+      target.offset *= units.metres;
       for (const uint64_t source : graph.follow(graph.follow(item, 0), 1).references(3))
         look_at(graph.node(source), placement * target);
     }
@@ -157,6 +186,7 @@ std::optional<IfcLightSource> ifc_light_of(StepGraph& graph, const StepNode& sha
 Result<std::string> ies_text_of(const IfcLightSource& light, const std::string& name) {
   if (light.planes.empty()) return problem("it has no intensities");
   if (!light.flux_lm || !(*light.flux_lm > 0)) return problem("it states no luminous flux");
+  if (!light.knows_angles) return problem("the model states no unit of plane angles that is known");
   if (light.type != "TYPE_C") return problem("its distribution is not of type C");
   auto planes = checked_planes(light);
   if (!planes) return planes.problem();

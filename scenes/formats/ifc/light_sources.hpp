@@ -35,19 +35,28 @@ struct IfcLightSource {
   std::optional<glm::dvec3> zero_plane;  // direction of the plane C0; of goniometric ones
   std::string document;  // name of the photometric file that it names; "" where none
   std::optional<double> flux_lm;
+  bool knows_angles = true;           // whether the model states the unit of its plane angles
   std::vector<IfcLightPlane> planes;  // upwards by angle; empty where the model has none
   std::string type;                   // TYPE_C of the distribution
+};
+
+/// Units of a model that its light sources are in.
+struct IfcLightUnits {
+  double metres = 1;                   // of a length
+  std::optional<double> angle_radian;  // of a plane angle; nothing where the model states none
 };
 
 /// The first light source in the shape of a product, which stands at `placement` (metres); a
 /// goniometric one before others.
 std::optional<IfcLightSource> ifc_light_of(StepGraph& graph, const StepNode& shape,
-                                           const Transform& placement, double metres_per_unit);
+                                           const Transform& placement, const IfcLightUnits& units);
 
 /// Its intensities as an IES file in absolute photometry, for its luminous flux. The schema allows
 /// cd/klm and cd/lm: the unit is the one in which the source emits up to its flux, not more.
-/// Errors: no flux or intensities, a distribution of another type than C, planes that differ in
-/// their angles or end elsewhere than at 0, 90, 180 or 360 degrees, an intensity below 0.
+/// Errors: no flux or intensities, no unit of angles, a distribution of another type than C, planes
+/// that differ in their angles, do not reach from 0 to 90 or 180 degrees, or leave a part of the
+/// circle uncovered (they may end at 0, 90, 180 or 360 degrees, as in IES files, or one step before
+/// 360 degrees), an intensity below 0.
 Result<std::string> ies_text_of(const IfcLightSource& light, const std::string& name);
 
 }  // namespace luxodus

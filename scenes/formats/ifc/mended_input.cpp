@@ -73,9 +73,8 @@ class Mender {
     std::string more;
     for (const uint64_t item : graph_.node(id).references(3))
       any = mend_item(graph_.node(item), depth, more) || any;
-    const auto parameters = draft_.parameters(id);
-    if (more.empty() || parameters.size() < 4 || parameters[3].size() < 2) return any;
-    std::vector<std::string> words(parameters.begin(), parameters.end());
+    auto words = draft_.copied_parameters(id);
+    if (more.empty() || words.size() < 4 || words[3].size() < 2) return any;
     words[3].insert(words[3].size() - 1, more);
     draft_.replace(id, std::string(draft_.type(id)), joined_parameters(words));
     return any;
@@ -85,7 +84,7 @@ class Mender {
     if (item.is("IFCMAPPEDITEM"))
       return depth < 4 && mend_representation(graph_.follow(item, 0).reference(1), depth + 1);
     if (item.is("IFCFACETEDBREP")) return false;  // as it is
-    const auto mesh = step_solid(graph_, item, one_place_);
+    const auto mesh = step_solid(graph_, item, one_place_, budget_);
     if (!mesh || mesh->triangles.empty()) return false;
     const std::vector<Mesh> parts = separate_parts(*mesh);
     draft_.replace(item.id(), "IFCFACETEDBREP", brep_body(draft_, parts.front()));
@@ -93,8 +92,7 @@ class Mender {
       const uint64_t brep = draft_.add("IFCFACETEDBREP", brep_body(draft_, parts[i]));
       more += ",#" + std::to_string(brep);
       if (const auto style = styles_.find(item.id()); style != styles_.end()) {
-        const auto parameters = draft_.parameters(style->second);
-        std::vector<std::string> words(parameters.begin(), parameters.end());
+        auto words = draft_.copied_parameters(style->second);
         words[0] = "#" + std::to_string(brep);
         draft_.add("IFCSTYLEDITEM", joined_parameters(words));
       }
@@ -105,6 +103,7 @@ class Mender {
   StepGraph graph_;
   StepDraft draft_;
   double one_place_;
+  SolidBudget budget_;
   std::map<uint64_t, uint64_t> styles_;  // of items
   std::map<uint64_t, bool> done_;        // representations
 };
@@ -115,48 +114,72 @@ std::optional<double> scale_of(const StepNode& target) {
   return target.number(3).value_or(1);
 }
 
-/// Volume of an item in cubic units of the model; nothing where it is not known here. Of faces that
+/// Volumes of items in cubic units of the model; nothing where one is not known here. Of faces that
 /// a model lists the library decides which side is outward, so that volumes may differ.
-std::optional<double> item_volume(StepGraph& graph, const StepNode& item, double one_place,
-                                  int depth) {
-  if (item.is("IFCFACETEDBREP") || item.type().ends_with("FACESET")) return std::nullopt;
-  if (!item.is("IFCMAPPEDITEM")) {
-    const auto mesh = step_solid(graph, item, one_place);
-    return mesh ? std::optional(signed_volume_of(*mesh)) : std::nullopt;
+class ItemVolumes {
+ public:
+  ItemVolumes(const StepFile& prepared, double one_place, uint64_t max_work)
+      : graph_(prepared), one_place_(one_place), budget_(max_work) {}
+
+  StepGraph& graph() { return graph_; }
+  bool is_spent() const { return budget_.is_spent(); }
+
+  /// Of all items of a representation. Known ones are remembered: a representation may list items
+  /// that map another one, and each many times.
+  std::optional<double> of_representation(uint64_t id, int depth = 0) {
+    if (const auto known = known_.find(id); known != known_.end()) return known->second;
+    double sum = 0;
+    for (const uint64_t item : graph_.node(id).references(3)) {
+      const auto volume = of_item(graph_.node(item), depth);
+      if (!volume) return std::nullopt;
+      sum += *volume;
+    }
+    known_.emplace(id, sum);
+    return sum;
   }
-  const auto scale = scale_of(graph.follow(item, 1));
-  if (!scale || depth > 3) return std::nullopt;
-  double sum = 0;
-  for (const uint64_t id : graph.follow(graph.follow(item, 0), 1).references(3)) {
-    const auto volume = item_volume(graph, graph.node(id), one_place, depth + 1);
-    if (!volume) return std::nullopt;
-    sum += *volume;
+
+ private:
+  std::optional<double> of_item(const StepNode& item, int depth) {
+    if (item.is("IFCFACETEDBREP") || item.type().ends_with("FACESET")) return std::nullopt;
+    if (!item.is("IFCMAPPEDITEM")) {
+      const auto mesh = step_solid(graph_, item, one_place_, budget_);
+      return mesh ? std::optional(signed_volume_of(*mesh)) : std::nullopt;
+    }
+    const auto scale = scale_of(graph_.follow(item, 1));
+    if (!scale || depth > 3) return std::nullopt;
+    const auto source = of_representation(graph_.follow(item, 0).reference(1), depth + 1);
+    return source ? std::optional(std::abs(*scale * *scale * *scale) * *source) : std::nullopt;
   }
-  return std::abs(*scale * *scale * *scale) * sum;
-}
+
+  StepGraph graph_;
+  double one_place_;
+  SolidBudget budget_;
+  std::map<uint64_t, double> known_;  // representations
+};
 
 }  // namespace
 
-std::map<uint64_t, IfcSolidVolume> ifc_solid_volumes(const StepFile& prepared,
-                                                     const IfcModel& model) {
-  StepGraph graph(prepared);
+IfcSolidVolumes ifc_solid_volumes(const StepFile& prepared, const IfcModel& model,
+                                  uint64_t max_work) {
   const double unit = model.metres_per_unit;
+  ItemVolumes items(prepared, on_plane_m / unit, max_work);
+  StepGraph& graph = items.graph();
   std::set<uint64_t> with_openings;
   for (const IfcProduct& product : model.products) with_openings.insert(product.voids);
-  std::map<uint64_t, IfcSolidVolume> out;
+  IfcSolidVolumes out;
   for (const IfcProduct& product : model.products) {
     if (!product.is_solid) continue;
-    double sum = 0;
-    bool known = true;
-    for (const uint64_t representation : graph.follow(graph.node(product.id), 6).references(2))
-      for (const uint64_t item : graph.node(representation).references(3)) {
-        const auto volume = item_volume(graph, graph.node(item), on_plane_m / unit, 0);
-        known = known && volume;
-        sum += volume.value_or(0);
-      }
-    if (known)
-      out.emplace(product.id,
-                  IfcSolidVolume{sum * unit * unit * unit, with_openings.contains(product.id)});
+    std::optional<double> sum = 0;
+    for (const uint64_t id : graph.follow(graph.node(product.id), 6).references(2)) {
+      const auto volume = items.of_representation(id);
+      sum = volume ? std::optional(*sum + *volume) : std::nullopt;
+      if (!sum) break;
+    }
+    if (sum)
+      out.known.emplace(product.id, IfcSolidVolume{*sum * unit * unit * unit,
+                                                   with_openings.contains(product.id)});
+    else if (items.is_spent())
+      ++out.beyond_budget;
   }
   return out;
 }

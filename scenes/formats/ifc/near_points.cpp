@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "scenes/formats/ifc/placements.hpp"
 #include "scenes/formats/ifc/shape_input.hpp"
@@ -21,10 +20,12 @@ namespace {
 /// Depth of an instance below an item: the schema needs about ten.
 constexpr int max_depth = 24;
 
+/// A sweep: a profile, and the placement of its plane.
 bool is_swept(const StepNode& node) {
   return node.type().find("SWEPTAREASOLID") != std::string_view::npos ||
          node.is("IFCEXTRUDEDAREASOLID") || node.is("IFCEXTRUDEDAREASOLIDTAPERED") ||
-         node.is("IFCREVOLVEDAREASOLID") || node.is("IFCREVOLVEDAREASOLIDTAPERED");
+         node.is("IFCREVOLVEDAREASOLID") || node.is("IFCREVOLVEDAREASOLIDTAPERED") ||
+         node.is("IFCSURFACEOFLINEAREXTRUSION") || node.is("IFCSURFACEOFREVOLUTION");
 }
 
 class NearPoints {
@@ -41,14 +42,14 @@ class NearPoints {
     if (!by) return;
     std::string representations;
     for (const uint64_t representation : shape.references(2)) {
-      auto words = words_of_parameters(representation);
+      auto words = draft_.copied_parameters(representation);
       if (words.size() < 4) return;
       words[3] = moved_text(words[3], *by, 0);
       representations += fmt::format(
           "{}#{}", representations.empty() ? "" : ",",
           draft_.add(std::string(graph_.node(representation).type()), joined_parameters(words)));
     }
-    auto words = words_of_parameters(id);
+    auto words = draft_.copied_parameters(id);
     if (words.size() < 7) return;
     const std::string above = words[5];
     words[5] = fmt::format(
@@ -66,7 +67,7 @@ class NearPoints {
       if (copy != key.first) copies.emplace(key.first, copy);
     for (const StepFile::Instance& instance : graph_.file().instances()) {
       if (instance.type != "IFCSTYLEDITEM") continue;
-      auto words = words_of_parameters(instance.id);
+      auto words = draft_.copied_parameters(instance.id);
       const auto [from, to] = copies.equal_range(graph_.node(instance).reference(0));
       for (auto at = from; at != to; ++at) {
         words[0] = fmt::format("#{}", at->second);
@@ -75,28 +76,31 @@ class NearPoints {
     }
   }
 
-  std::optional<std::string> text() const {
-    return moved_ > 0 && !draft_.is_full() ? std::optional(draft_.text()) : std::nullopt;
-  }
+  size_t moved_shapes() const { return moved_; }
+  const StepDraft& draft() const { return draft_; }
 
  private:
-  std::vector<std::string> words_of_parameters(uint64_t id) const {
-    const auto views = draft_.parameters(id);
-    return {views.begin(), views.end()};
-  }
-
   /// A point of an item, rounded, if it is far from the origin.
   std::optional<glm::dvec3> far_point(const StepNode& node) {
     const auto point = point_of(node, 0);
-    if (!point || !is_finite(*point)) return std::nullopt;
-    const glm::dvec3 size = glm::abs(*point);
-    if (std::max({size.x, size.y, size.z}) < far_) return std::nullopt;
+    if (!point || !is_finite(*point) || !is_far(*point)) return std::nullopt;
     return glm::round(*point);
   }
 
-  /// The first point of a shape, in the space of the node that refers to it.
+  /// The first point of a shape, in the space of the node that refers to it. Remembered, since
+  /// nodes may form a graph with exponentially many ways through it; that there is none is known
+  /// only as deep as was searched.
   std::optional<glm::dvec3> point_of(const StepNode& node, int depth) {
     if (!node || depth > max_depth) return std::nullopt;
+    const auto [known, fresh] = first_points_.try_emplace(node.id());
+    FirstPoint& first = known->second;
+    if (!fresh && (first.point || depth >= first.depth)) return first.point;
+    first.depth = depth;
+    first.point = found_point(node, depth);
+    return first.point;
+  }
+
+  std::optional<glm::dvec3> found_point(const StepNode& node, int depth) {
     if (node.is("IFCCARTESIANPOINT")) return vector_of(node, glm::dvec3(0));
     if (node.type().starts_with("IFCCARTESIANPOINTLIST")) {
       const auto& rows = node.at(0).items;
@@ -134,7 +138,7 @@ class NearPoints {
   /// A copy whose points are moved by -`by`; the instance itself if it has none.
   uint64_t moved(uint64_t id, const glm::dvec3& by, int depth) {
     const StepNode node = graph_.node(id);
-    if (!node || depth > max_depth) return id;
+    if (!node || depth > max_depth || draft_.is_full()) return id;
     const auto key = std::pair(id, std::array<double, 3>{by.x, by.y, by.z});
     if (const auto known = copies_.find(key); known != copies_.end()) return known->second;
     copies_[key] = id;
@@ -146,7 +150,7 @@ class NearPoints {
   }
 
   std::string moved_body(const StepNode& node, const glm::dvec3& by, int depth) {
-    auto words = words_of_parameters(node.id());
+    auto words = draft_.copied_parameters(node.id());
     if (words.empty()) return std::string(draft_.body(node.id()));
     if (node.is("IFCCARTESIANPOINT")) {
       words[0] = moved_row(node.at(0), by);
@@ -183,7 +187,8 @@ class NearPoints {
     Transform place = axis_placement(graph_, axis);
     const auto profile = far_point(graph_.follow(node, 0));
     // The axis of a revolution lies in the space of the profile.
-    if (profile && node.type().starts_with("IFCEXTRUDED")) {
+    if (profile &&
+        (node.type().starts_with("IFCEXTRUDED") || node.is("IFCSURFACEOFLINEAREXTRUSION"))) {
       words[0] = fmt::format("#{}", moved(node.reference(0), *profile, depth + 1));
       if (node.is("IFCEXTRUDEDAREASOLIDTAPERED") && words.size() > 4)
         words[4] = fmt::format("#{}", moved(node.reference(4), *profile, depth + 1));
@@ -191,7 +196,7 @@ class NearPoints {
     }
     const glm::dvec3 at = place.offset - by;
     const uint64_t point = draft_.add("IFCCARTESIANPOINT", step_point(at, 3));
-    auto own = axis ? words_of_parameters(axis.id()) : std::vector<std::string>{"", "$", "$"};
+    auto own = axis ? draft_.copied_parameters(axis.id()) : std::vector<std::string>{"", "$", "$"};
     if (own.empty()) return;
     own[0] = fmt::format("#{}", point);
     words[1] = fmt::format("#{}", draft_.add("IFCAXIS2PLACEMENT3D", joined_parameters(own)));
@@ -206,11 +211,11 @@ class NearPoints {
     const Transform origin = axis_placement(graph_, graph_.follow(map, 0));
     const bool plain = origin.offset == glm::dvec3(0) && origin.linear == glm::dmat3(1);
     std::optional<glm::dvec3> source = source_point(node, depth);
-    if (source && plain && far_point_of(*source) && !target.reference(0) && !target.reference(1) &&
+    if (source && plain && is_far(*source) && !target.reference(0) && !target.reference(1) &&
         target.number(3).value_or(1) == 1) {
       const glm::dvec3 shift = glm::round(*source);
-      auto representation = words_of_parameters(map.reference(1));
-      auto own = words_of_parameters(map.id());
+      auto representation = draft_.copied_parameters(map.reference(1));
+      auto own = draft_.copied_parameters(map.id());
       if (representation.size() > 3 && own.size() > 1) {
         representation[3] = moved_text(representation[3], shift, depth + 1);
         own[1] = fmt::format(
@@ -219,13 +224,13 @@ class NearPoints {
         at += shift;
       }
     }
-    auto own = words_of_parameters(target.id());
+    auto own = draft_.copied_parameters(target.id());
     if (own.size() < 3) return;
     own[2] = fmt::format("#{}", draft_.add("IFCCARTESIANPOINT", step_point(at, 3)));
     words[1] = fmt::format("#{}", draft_.add(std::string(target.type()), joined_parameters(own)));
   }
 
-  bool far_point_of(const glm::dvec3& p) const {
+  bool is_far(const glm::dvec3& p) const {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >= far_;
   }
 
@@ -251,21 +256,29 @@ class NearPoints {
     return out;
   }
 
+  struct FirstPoint {
+    int depth = 0;  // of the search that found it, or nothing
+    std::optional<glm::dvec3> point;
+  };
+
   StepGraph graph_;
   StepDraft draft_;
   double far_;
   size_t moved_ = 0;
+  std::map<uint64_t, FirstPoint> first_points_;  // by instance
   std::map<std::pair<uint64_t, std::array<double, 3>>, uint64_t> copies_;
 };
 
 }  // namespace
 
-std::optional<std::string> with_near_points(const StepFile& file, const IfcModel& model) {
+NearPointsText with_near_points(const StepFile& file, const IfcModel& model) {
   NearPoints near(file, limits::ifc_far_m / model.metres_per_unit);
   for (const IfcProduct& product : model.products)
     if (product.has_shape) near.move(product.id);
   near.copy_styles();
-  return near.text();
+  if (near.draft().is_full()) return {std::nullopt, near.moved_shapes()};
+  if (near.moved_shapes() == 0) return {};
+  return {near.draft().text(), 0};
 }
 
 }  // namespace luxodus

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 
@@ -47,10 +45,16 @@ class ShapeInput {
       note("some items are too large to be rewritten for the library, and have no shape");
     auto file = StepFile::of(draft_.text(), model_.file);
     if (!file) return file.problem();
-    if (const auto near = with_near_points(file.value(), model_)) {
-      file = StepFile::of(*near, model_.file);
+    const NearPointsText near = with_near_points(file.value(), model_);
+    if (near.file) {
+      file = StepFile::of(*near.file, model_.file);
       if (!file) return file.problem();
     }
+    if (near.left_far > 0)
+      note(
+          fmt::format("{} shapes far from the origin of their product are too large to be moved "
+                      "near it, and are rounded",
+                      near.left_far));
     return IfcShapeInput{std::move(file).value(), std::move(notes_)};
   }
 
@@ -98,7 +102,7 @@ class ShapeInput {
       }
       points += (points.empty() ? "" : ",") + std::string(texts[static_cast<size_t>(i) - 1]);
     }
-    auto words = words_of_parameters(node.id());
+    auto words = draft_.copied_parameters(node.id());
     if (words.size() <= place) return;
     words[0] = fmt::format("#{}", draft_.add("IFCCARTESIANPOINTLIST3D", "(" + points + ")"));
     words[place] = "$";
@@ -110,11 +114,6 @@ class ShapeInput {
     return parameters[0].substr(1, parameters[0].size() - 2);
   }
 
-  std::vector<std::string> words_of_parameters(uint64_t id) const {
-    const auto views = draft_.parameters(id);
-    return {views.begin(), views.end()};
-  }
-
   void outline_profile(const StepNode& node) {
     const auto profile = ifc_profile(graph_, node);
     if (!profile) return note(fmt::format("#{} ({}) gives no outline", node.id(), node.type()));
@@ -124,7 +123,7 @@ class ShapeInput {
     for (const glm::dvec2& p : closed)
       points += fmt::format("{}#{}", points.empty() ? "" : ",",
                             draft_.add("IFCCARTESIANPOINT", step_point({p, 0}, 2)));
-    const auto words = words_of_parameters(node.id());
+    const auto words = draft_.copied_parameters(node.id());
     if (words.size() < 2) return;
     draft_.replace(node.id(), "IFCARBITRARYCLOSEDPROFILEDEF",
                    fmt::format("{},{},#{}", words[0], words[1],
@@ -143,7 +142,7 @@ class ShapeInput {
   }
 
   void extrude_cylinder(const StepNode& node) {
-    const auto words = words_of_parameters(node.id());
+    const auto words = draft_.copied_parameters(node.id());
     if (words.size() < 3) return;
     const uint64_t origin = draft_.add("IFCCARTESIANPOINT", "(0.,0.)");
     const uint64_t axes = draft_.add("IFCAXIS2PLACEMENT2D", fmt::format("#{},$", origin));
@@ -176,7 +175,7 @@ class ShapeInput {
   }
 
   void sharpen_disc(const StepNode& node) {
-    auto words = words_of_parameters(node.id());
+    auto words = draft_.copied_parameters(node.id());
     if (node.number(5).value_or(0) > 0) ++fillets_;
     words.resize(std::min<size_t>(words.size(), 5));
     draft_.replace(node.id(), "IFCSWEPTDISKSOLID", joined_parameters(words));

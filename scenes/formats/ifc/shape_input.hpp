@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenes/formats/ifc/ifc_model.hpp"
+#include "scenes/formats/ifc/step_solids.hpp"
 
 namespace luxodus {
 
@@ -36,10 +37,15 @@ struct IfcSolidVolume {
   bool has_openings = false;  // which are not taken off
 };
 
-/// Volumes of products whose solids are known here, by their numbers.
-/// `prepared`: the file of ifc_shape_input.
-std::map<uint64_t, IfcSolidVolume> ifc_solid_volumes(const StepFile& prepared,
-                                                     const IfcModel& model);
+struct IfcSolidVolumes {
+  std::map<uint64_t, IfcSolidVolume> known;  // by the number of the product
+  size_t beyond_budget = 0;                  // products left out after the work was spent
+};
+
+/// Volumes of products whose solids are known here.
+/// `prepared`: the file of ifc_shape_input. `max_work`: as limits::solid_work.
+IfcSolidVolumes ifc_solid_volumes(const StepFile& prepared, const IfcModel& model,
+                                  uint64_t max_work = limits::solid_work);
 
 struct IfcMendedInput {
   StepFile file;

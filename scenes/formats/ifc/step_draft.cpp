@@ -4,16 +4,13 @@
 
 #include <algorithm>
 
+#include "runtime/core/text.hpp"
+
 namespace luxodus {
 
 namespace {
 
-std::string_view without_blanks(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n\f\v";
-  const size_t from = text.find_first_not_of(blanks);
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(blanks) - from + 1);
-}
+constexpr std::string_view blanks = " \t\r\n\f\v";
 
 }  // namespace
 
@@ -33,11 +30,11 @@ std::vector<std::string_view> split_parameters(std::string_view body) {
     } else if (c == ')') {
       --depth;
     } else if (c == ',' && depth == 0) {
-      out.push_back(without_blanks(body.substr(from, at - from)));
+      out.push_back(trimmed(body.substr(from, at - from), blanks));
       from = at + 1;
     }
   }
-  const std::string_view last = without_blanks(body.substr(std::min(from, body.size())));
+  const std::string_view last = trimmed(body.substr(std::min(from, body.size())), blanks);
   if (!last.empty() || !out.empty()) out.push_back(last);
   return out;
 }
@@ -71,8 +68,9 @@ std::vector<std::string_view> StepDraft::parameters(uint64_t id) const {
   return split_parameters(body(id));
 }
 
-std::vector<StepValue> StepDraft::values(uint64_t id) const {
-  return file_.parameters({id, type(id), body(id)});
+std::vector<std::string> StepDraft::copied_parameters(uint64_t id) const {
+  const auto views = parameters(id);
+  return {views.begin(), views.end()};
 }
 
 void StepDraft::replace(uint64_t id, std::string type, std::string body) {

@@ -28,8 +28,8 @@ class StepDraft {
   std::string_view body(uint64_t id) const;
   /// Texts of the parameters, without the white space around them.
   std::vector<std::string_view> parameters(uint64_t id) const;
-  /// The parsed parameters.
-  std::vector<StepValue> values(uint64_t id) const;
+  /// The same as copies, to be changed and joined again.
+  std::vector<std::string> copied_parameters(uint64_t id) const;
 
   void replace(uint64_t id, std::string type, std::string body);
   /// Adds an instance; returns its number, or 0 if the draft would become too large.

@@ -9,6 +9,7 @@
 
 #include "runtime/core/printable.hpp"
 #include "runtime/core/reading_share.hpp"
+#include "runtime/core/text.hpp"
 
 namespace luxodus {
 namespace {
@@ -45,25 +46,6 @@ size_t end_of_statement(std::string_view text, size_t at) {
     }
   }
   return std::string_view::npos;
-}
-
-void append_utf8(std::string& out, uint32_t code) {
-  if (code == 0 || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = 0xfffd;
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xc0 | (code >> 6));
-    out += static_cast<char>(0x80 | (code & 0x3f));
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xe0 | (code >> 12));
-    out += static_cast<char>(0x80 | ((code >> 6) & 0x3f));
-    out += static_cast<char>(0x80 | (code & 0x3f));
-  } else {
-    out += static_cast<char>(0xf0 | (code >> 18));
-    out += static_cast<char>(0x80 | ((code >> 12) & 0x3f));
-    out += static_cast<char>(0x80 | ((code >> 6) & 0x3f));
-    out += static_cast<char>(0x80 | (code & 0x3f));
-  }
 }
 
 std::optional<uint32_t> hexadecimal(std::string_view digits) {

@@ -3,6 +3,7 @@
 // a reference to the file; one thread, since it caches parsed instances.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "scenes/formats/ifc/placements.hpp"
@@ -58,35 +58,41 @@ Mesh spire(const Outline& base, const glm::dvec3& tip) {
   return out;
 }
 
-/// Solids from instances.
+/// One solid from its instances. Operands may form a graph, in which a few instances stand for a
+/// tree of exponential size: what was made of an instance is remembered. Nothing is remembered of
+/// one that gives no solid, since then the whole gives none.
 class Solids {
  public:
-  Solids(StepGraph& graph, double one_place) : graph_(graph), one_place_(one_place) {}
+  Solids(StepGraph& graph, double one_place, SolidBudget& budget)
+      : graph_(graph), one_place_(one_place), budget_(budget) {}
 
   std::optional<Mesh> of(const StepNode& item, int depth = 0) {
-    if (!item || depth > limits::solid_depth) return std::nullopt;
+    if (!item || depth > limits::solid_depth || budget_.is_spent()) return std::nullopt;
+    if (const auto known = known_.find(item.id()); known != known_.end()) return known->second;
     if (item.is("IFCCSGSOLID")) return of(graph_.follow(item, 0), depth + 1);
-    std::optional<Mesh> out;
-    if (item.is("IFCBOOLEANRESULT") || item.is("IFCBOOLEANCLIPPINGRESULT"))
-      out = operation(item, depth);
-    else if (item.is("IFCEXTRUDEDAREASOLID"))
-      out = extrusion(item);
-    else if (item.is("IFCFACETEDBREP"))
-      out = brep(item);
-    else if (item.is("IFCTRIANGULATEDFACESET"))
-      out = triangulated(item);
-    else if (item.is("IFCPOLYGONALFACESET"))
-      out = polygonal(item);
-    else
-      out = primitive(item);
-    if (!out || out->triangles.size() > limits::solid_triangles) return std::nullopt;
+    std::optional<Mesh> out = made(item, depth);
+    if (!out || out->triangles.size() > limits::solid_triangles ||
+        !budget_.spend(out->triangles.size()))
+      return std::nullopt;
     for (const glm::dvec3& p : out->positions)
       if (!is_finite(p)) return std::nullopt;
     if (signed_volume_of(*out) < 0) flip(*out);
+    remembered_ += out->triangles.size();
+    if (depth > 0 && remembered_ <= limits::remembered_triangles) known_.emplace(item.id(), *out);
     return out;
   }
 
  private:
+  std::optional<Mesh> made(const StepNode& item, int depth) {
+    if (item.is("IFCBOOLEANRESULT") || item.is("IFCBOOLEANCLIPPINGRESULT"))
+      return operation(item, depth);
+    if (item.is("IFCEXTRUDEDAREASOLID")) return extrusion(item);
+    if (item.is("IFCFACETEDBREP")) return brep(item);
+    if (item.is("IFCTRIANGULATEDFACESET")) return triangulated(item);
+    if (item.is("IFCPOLYGONALFACESET")) return polygonal(item);
+    return primitive(item);
+  }
+
   std::optional<Mesh> placed(std::optional<Mesh> mesh, const StepNode& axes) {
     if (!mesh) return mesh;
     const Transform place = axis_placement(graph_, axes);
@@ -119,7 +125,7 @@ class Solids {
   // ---- faces
 
   /// Adds a flat face with holes; `rings` hold numbers of positions.
-  static bool add_face(Mesh& mesh, std::vector<std::vector<uint32_t>> rings) {
+  bool add_face(Mesh& mesh, std::vector<std::vector<uint32_t>> rings) {
     if (rings.empty()) return false;
     glm::dvec3 normal(0);  // Newell
     const auto& outer = rings.front();
@@ -145,6 +151,7 @@ class Solids {
       flat.push_back(std::move(points));
       number.insert(number.end(), ring.begin(), ring.end());
     }
+    if (!budget_.spend(number.size())) return false;
     const auto triangles = fill(flat);
     if (!triangles) return false;
     for (const glm::uvec3& t : *triangles)
@@ -235,7 +242,7 @@ class Solids {
     const bool cuts_off = what == "DIFFERENCE";
     if (const auto space = half_space(second)) {
       if (!second.is("IFCPOLYGONALBOUNDEDHALFSPACE"))
-        return cut(*first, cuts_off ? space->complement() : *space, one_place_);
+        return part(*first, cuts_off ? space->complement() : *space);
       auto pieces = bounds(second);
       if (!pieces) return std::nullopt;
       for (auto& sides : *pieces) sides.push_back(*space);
@@ -319,10 +326,32 @@ class Solids {
     return true;
   }
 
-  std::optional<Mesh> within(std::optional<Mesh> mesh, const std::vector<HalfSpace>& sides) {
-    for (const HalfSpace& side : sides)
-      if (mesh) mesh = cut(*mesh, side, one_place_);
-    return mesh;
+  /// The part of a mesh within a half space.
+  std::optional<Mesh> part(const Mesh& mesh, const HalfSpace& within) {
+    if (!budget_.spend(mesh.triangles.size())) return std::nullopt;
+    return cut(mesh, within, one_place_);
+  }
+
+  struct Divided {
+    Mesh inside;
+    std::vector<Mesh> outside;
+  };
+
+  /// A mesh on both sides of a convex piece, an intersection of half spaces; `outside` is the mesh
+  /// itself where nothing of it is inside.
+  std::optional<Divided> divided(const Mesh& mesh, const std::vector<HalfSpace>& sides) {
+    Divided out{mesh, {}};
+    bool is_known = true;  // what is outside matters only where something is inside
+    for (const HalfSpace& side : sides) {
+      auto left = part(out.inside, side);
+      if (!left) return std::nullopt;
+      if (left->triangles.empty()) return Divided{{}, {mesh}};
+      auto beyond = part(out.inside, side.complement());
+      is_known = is_known && beyond;
+      if (beyond && !beyond->triangles.empty()) out.outside.push_back(std::move(*beyond));
+      out.inside = std::move(*left);
+    }
+    return is_known ? std::optional(std::move(out)) : std::nullopt;
   }
 
   /// What convex pieces, each an intersection of half spaces, cut off or have in common with a
@@ -334,21 +363,11 @@ class Solids {
     Mesh inside;
     for (const std::vector<HalfSpace>& sides : pieces) {
       std::vector<Mesh> next;
-      for (Mesh& one : rest) {
-        const auto taken = within(one, sides);
-        if (!taken) return std::nullopt;
-        if (taken->triangles.empty()) {
-          next.push_back(std::move(one));
-          continue;
-        }
-        append(inside, *taken);
-        std::optional<Mesh> left = std::move(one);
-        for (const HalfSpace& side : sides) {
-          auto out = cut(*left, side.complement(), one_place_);
-          left = cut(*left, side, one_place_);
-          if (!out || !left) return std::nullopt;
-          if (!out->triangles.empty()) next.push_back(std::move(*out));
-        }
+      for (const Mesh& one : rest) {
+        auto sorted = divided(one, sides);
+        if (!sorted) return std::nullopt;
+        append(inside, sorted->inside);
+        std::move(sorted->outside.begin(), sorted->outside.end(), std::back_inserter(next));
       }
       rest = std::move(next);
       if (rest.size() > limits::bounding_sides) return std::nullopt;
@@ -361,12 +380,21 @@ class Solids {
 
   StepGraph& graph_;
   double one_place_;
+  SolidBudget& budget_;
+  std::map<uint64_t, Mesh> known_;  // of operands
+  size_t remembered_ = 0;           // triangles
 };
 
 }  // namespace
 
+std::optional<Mesh> step_solid(StepGraph& graph, const StepNode& item, double one_place,
+                               SolidBudget& budget) {
+  return Solids(graph, one_place, budget).of(item);
+}
+
 std::optional<Mesh> step_solid(StepGraph& graph, const StepNode& item, double one_place) {
-  return Solids(graph, one_place).of(item);
+  SolidBudget own;
+  return step_solid(graph, item, one_place, own);
 }
 
 std::string step_number(double x) {

@@ -6,7 +6,6 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "scenes/light/geometry/primitives.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <unordered_map>
 
@@ -135,8 +134,6 @@ OpenEdges open_edges(const Mesh& mesh) {
   if (!odd.empty() && odd.size() <= limits::split_edges) odd = split(odd, places);
   OpenEdges out;
   out.edges = odd.size();
-  for (const auto& [edge, open] : odd)
-    out.length_m += glm::length(places.point(edge.first) - places.point(edge.second));
   out.area_m2 = area_of_loops(odd, places);
   return out;
 }

@@ -2,8 +2,6 @@
 // the boundary of a solid must. Pure functions; any thread.
 #pragma once
 
-#include <vector>
-
 #include "scenes/light/geometry/mesh.hpp"
 
 namespace luxodus {
@@ -18,7 +16,6 @@ inline constexpr double one_vertex_m = 1e-4;
 
 struct OpenEdges {
   size_t edges = 0;
-  double length_m = 0;
   /// Of the faces that would close the mesh, were they flat [m2].
   double area_m2 = 0;
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -171,10 +170,11 @@ Result<std::string_view> GltfFile::span_of(size_t index, uint64_t offset, uint64
   const auto bytes = bytes_of(view.buffer);
   if (!bytes) return bytes.problem();
   const uint64_t all = bytes->size();
-  constexpr uint64_t largest = uint64_t{1} << 40;  // so that no sum overflows
-  const uint64_t needed = count == 0 ? 0 : (count - 1) * step + size;
-  if (view.offset > all || view.bytes > all - view.offset || offset > largest || step > largest ||
-      needed > largest || offset + needed > view.bytes)
+  constexpr uint64_t largest = uint64_t{1} << 32;  // so that no product or sum overflows
+  const bool too_large = std::max({view.offset, view.bytes, offset, step, count}) > largest;
+  const uint64_t needed = too_large || count == 0 ? 0 : (count - 1) * step + size;
+  if (too_large || view.offset > all || view.bytes > all - view.offset || offset > view.bytes ||
+      needed > view.bytes - offset)
     return problem(
         fmt::format("bufferViews[{}] is beyond its buffer, or shorter than what is in "
                     "it",

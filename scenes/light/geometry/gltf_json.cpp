@@ -17,6 +17,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Largest distance between two elements of a buffer view [bytes] (glTF 2.0, 5.11.4).
+constexpr uint64_t max_stride = 252;
+
 /// Whether brackets outside strings nest deeper than the limit.
 bool nests_too_deep(std::string_view text) {
   int depth = 0;
@@ -218,6 +221,7 @@ class GltfJson {
       view.offset = count(from, "byteOffset", 0);
       view.bytes = count(from, "byteLength", 0);
       view.stride = count(from, "byteStride", 0);
+      if (view.stride > max_stride) wrong("byteStride", "4 to 252");
       view.compressed =
           extended(from, "EXT_meshopt_compression") || extended(from, "KHR_meshopt_compression");
       file_.views_.push_back(view);

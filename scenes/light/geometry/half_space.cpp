@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "scenes/light/geometry/mesh_tools.hpp"
 #include "scenes/light/geometry/polygon.hpp"
@@ -15,14 +14,10 @@ namespace {
 
 using Ring = std::vector<glm::dvec2>;
 
-/// Twice the signed area of a, b, c: positive where c is to the left of a -> b.
-double left_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 bool in_triangle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                  const glm::dvec2& p) {
-  return left_of(a, b, p) >= 0 && left_of(b, c, p) >= 0 && left_of(c, a, p) >= 0;
+  return twice_signed_area(a, b, p) >= 0 && twice_signed_area(b, c, p) >= 0 &&
+         twice_signed_area(c, a, p) >= 0;
 }
 
 /// Joins a hole to the boundary around it by two edges at one place (Eberly, Triangulation by Ear
@@ -57,7 +52,7 @@ bool join_hole(std::vector<uint32_t>& ring, std::vector<uint32_t> hole,
     const double slope = std::abs(q.y - m.y) / std::max(q.x - m.x, 1e-300);
     const glm::dvec2 before = p[ring[(i + ring.size() - 1) % ring.size()]],
                      after = p[ring[(i + 1) % ring.size()]];
-    if (!inside || slope >= best || left_of(before, q, after) > 0) continue;
+    if (!inside || slope >= best || twice_signed_area(before, q, after) > 0) continue;
     best = slope;
     bridge = i;
   }
@@ -84,7 +79,7 @@ std::optional<std::vector<glm::uvec3>> cut_ears(std::vector<uint32_t> ring,
     std::optional<size_t> ear, flat;
     for (size_t i = 0; i < n; ++i) {
       const uint32_t a = ring[(i + n - 1) % n], b = ring[i], c = ring[(i + 1) % n];
-      const double area = left_of(p[a], p[b], p[c]);
+      const double area = twice_signed_area(p[a], p[b], p[c]);
       const double size = glm::dot(p[b] - p[a], p[b] - p[a]) + glm::dot(p[c] - p[b], p[c] - p[b]) +
                           glm::dot(p[a] - p[c], p[a] - p[c]);
       const double quality = size > 0 ? area / size : 0;
@@ -106,15 +101,6 @@ std::optional<std::vector<glm::uvec3>> cut_ears(std::vector<uint32_t> ring,
   }
   out.push_back({ring[0], ring[1], ring[2]});
   return out;
-}
-
-bool is_within(const Ring& ring, const glm::dvec2& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if ((ring[i].y > p.y) != (ring[j].y > p.y) &&
-        p.x < (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y) + ring[i].x)
-      inside = !inside;
-  return inside;
 }
 
 /// One cut of a mesh.

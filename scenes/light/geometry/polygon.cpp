@@ -12,11 +12,6 @@ namespace {
 /// Beyond this coordinate [m] float would no longer resolve millimetres.
 constexpr double farthest_m = 1e7;
 
-/// Twice the signed area of a, b, c: positive where c is to the left of a -> b.
-double side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 int sign(double v) {
   return (v > 0) - (v < 0);
 }
@@ -60,7 +55,8 @@ double flat_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) 
 bool in_closed_triangle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                         const glm::dvec2& p) {
   const double flat = -flat_area(a, b, c);
-  return side(a, b, p) >= flat && side(b, c, p) >= flat && side(c, a, p) >= flat;
+  return twice_signed_area(a, b, p) >= flat && twice_signed_area(b, c, p) >= flat &&
+         twice_signed_area(c, a, p) >= flat;
 }
 
 /// Whether the boxes of a b and c d have a point in common.
@@ -73,13 +69,23 @@ bool boxes_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
 
 }  // namespace
 
+bool is_within(std::span<const glm::dvec2> outline, const glm::dvec2& p) {
+  bool inside = false;
+  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const glm::dvec2 &a = outline[i], &b = outline[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+      inside = !inside;
+  }
+  return inside;
+}
+
 bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                    const glm::dvec2& d) {
   // Two disjoint pieces of one slanting wall may seem to cross, because the signs of their sides
   // are only rounding.
   if (!boxes_meet(a, b, c, d)) return false;
-  const int s1 = sign(side(a, b, c)), s2 = sign(side(a, b, d));
-  const int s3 = sign(side(c, d, a)), s4 = sign(side(c, d, b));
+  const int s1 = sign(twice_signed_area(a, b, c)), s2 = sign(twice_signed_area(a, b, d));
+  const int s3 = sign(twice_signed_area(c, d, a)), s4 = sign(twice_signed_area(c, d, b));
   if (s1 != s2 && s3 != s4) return true;
   return (s1 == 0 && within_box(a, b, c)) || (s2 == 0 && within_box(a, b, d)) ||
          (s3 == 0 && within_box(c, d, a)) || (s4 == 0 && within_box(c, d, b));
@@ -102,7 +108,7 @@ Result<std::vector<glm::dvec2>> checked_outline(std::span<const glm::dvec2> outl
   const size_t n = outline.size();
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 a = outline[i], b = outline[(i + 1) % n], c = outline[(i + 2) % n];
-    if (side(a, b, c) == 0 && glm::dot(b - a, c - b) < 0) {
+    if (twice_signed_area(a, b, c) == 0 && glm::dot(b - a, c - b) < 0) {
       return problem(fmt::format("the outline turns back on itself at point {}", (i + 1) % n + 1));
     }
     for (size_t k = i + 2; k < n; ++k) {
@@ -133,7 +139,7 @@ Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline)
     at %= n;
     const uint32_t before = ring[(at + n - 1) % n], tip = ring[at], after = ring[(at + 1) % n];
     const glm::dvec2 a = outline[before], b = outline[tip], c = outline[after];
-    const bool convex = side(a, b, c) > flat_area(a, b, c);
+    const bool convex = twice_signed_area(a, b, c) > flat_area(a, b, c);
     const bool ear =
         convex && std::none_of(ring.begin(), ring.end(), [&](uint32_t k) {
           return k != before && k != tip && k != after && in_closed_triangle(a, b, c, outline[k]);
@@ -147,7 +153,7 @@ Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline)
     ring.erase(ring.begin() + static_cast<ptrdiff_t>(at));
     tried = 0;
   }
-  if (!(side(outline[ring[0]], outline[ring[1]], outline[ring[2]]) > 0)) {
+  if (!(twice_signed_area(outline[ring[0]], outline[ring[1]], outline[ring[2]]) > 0)) {
     return problem("the outline has corners too flat to be cut into triangles: simplify it");
   }
   triangles.push_back({ring[0], ring[1], ring[2]});

@@ -20,6 +20,15 @@ inline constexpr size_t polygon_points = 2048;
 bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                    const glm::dvec2& d);
 
+/// Twice the signed area of a, b, c: positive where c is to the left of a -> b.
+inline double twice_signed_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Whether a point lies within an outline, by the even-odd rule: a ray to +x crosses its edges an
+/// odd number of times. Points on edges may count as either.
+bool is_within(std::span<const glm::dvec2> outline, const glm::dvec2& p);
+
 /// Shoelace area [m2]: positive for counter-clockwise outlines.
 double signed_area(std::span<const glm::dvec2> outline);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "runtime/core/printable.hpp"
+#include "runtime/core/text.hpp"
 
 namespace luxodus {
 
@@ -21,12 +22,6 @@ constexpr std::array<std::string_view, 5> known_pictures{"image/png", "image/jpe
 template <size_t count>
 bool is_one_of(std::string_view word, const std::array<std::string_view, count>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(white_space);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(white_space) - first + 1);
 }
 
 /// The name without the prefix of its namespace.

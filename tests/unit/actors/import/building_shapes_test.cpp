@@ -65,6 +65,11 @@ TEST_CASE("a room is set on the floor that most rays find, whatever stands on it
   CHECK(half.level_share == Approx(0.72).margin(0.05));
   const BuildingRoom lower = room_over({part({-1, -1, -0.4}, {6, 5, -0.2})});
   CHECK(lower.z_m == Approx(-0.2));
+  // Parts of one floor a hair apart, on both sides of the middle of a centimetre.
+  const BuildingRoom uneven =
+      room_over({part({-1, -1, -0.2}, {2, 5, 0.0049}), part({2, -1, -0.2}, {6, 5, 0.0051})});
+  CHECK(uneven.level_share == 1);
+  CHECK(uneven.z_m == Approx(0.0051));
   CHECK(room_over({part({0, 0, 3}, {5, 4, 3.2})}).floor_share == 0);
 }
 

@@ -265,6 +265,31 @@ TEST_CASE("tables of the building that a person has changed or removed stay so",
   CHECK(with_hand_changes(second, first, first).text == second);
 }
 
+TEST_CASE("changes by hand that an import does not keep are named", "[import]") {
+  const std::string table =
+      "\n[[import]]\nname = \"a\"\nunits = \"m\"\n[import.materials]\n\"x\" = ";
+  const std::string gone = "\n[[open_area]]\nname = \"Hall\"\nifc_guid = \"A\"\nz = ";
+  const auto head = [](const char* model) {
+    return std::string("# Of ") + model + "\ninclude = []\n";
+  };
+  const std::string first = head("old.ifc") + table + "\"x\"\n" + gone + "0\n";
+  const std::string fresh = head("new.ifc") + table + "\"x\"\n";
+  const auto notes = [&](const std::string& now) {
+    return with_hand_changes(fresh, now, first).notes;
+  };
+  CHECK(notes(first).empty());
+  const auto setting = notes(head("old.ifc") + table + "\"y\"\n" + gone + "0\n");
+  REQUIRE(setting.size() == 1);
+  CHECK(setting[0].find("not kept: [[import]] \"a\";") == 0);
+  const auto lost = notes(head("old.ifc") + table + "\"x\"\n" + gone + "1\n");
+  REQUIRE(lost.size() == 1);
+  CHECK(lost[0].find("not kept: [[open_area]] \"Hall\";") == 0);
+  const auto added = notes("title = 1\n" + first + "\n[[sign]]\nname = \"own\"\n");
+  REQUIRE(added.size() == 2);
+  CHECK(added[0].find("not kept: the lines before the first table;") == 0);
+  CHECK(added[1].find("not kept: [[sign]] \"own\";") == 0);
+}
+
 TEST_CASE("a written binary glTF reads back with its names, materials and places", "[import]") {
   const TemporaryFolder folder;
   const glm::dvec3 origin(1000, 2000, 10);

@@ -271,3 +271,68 @@ TEST_CASE("light sources within a model give place, direction and intensities", 
   CHECK(spot->kind == "spot");
   CHECK(spot->axis == glm::dvec3(1, 0, 0));
 }
+
+namespace {
+
+/// The luminous intensities of a light source of 1500 lm whose data are these, as an IES file.
+Result<std::string> ies_of(StepText text, const std::vector<std::string>& data) {
+  std::string all;
+  for (const std::string& one : data)
+    all += (all.empty() ? "" : ",") + text.add("IFCLIGHTDISTRIBUTIONDATA(" + one + ")");
+  const std::string distribution =
+      text.add("IFCLIGHTINTENSITYDISTRIBUTION(.TYPE_C.,(" + all + "))");
+  const std::string source =
+      text.add("IFCLIGHTSOURCEGONIOMETRIC('g',$,$,$," + text.axes({0, 0, 0}) +
+               ",$,3000.,1500.,.NOTDEFINED.," + distribution + ")");
+  text.product("IFCLIGHTFIXTURE", "lamp", text.local(text.storey_place, {0, 0, 0}),
+               text.shape(text.representation(text.body, "LightSource", source)));
+  const IfcModel model = model_of(text.text());
+  REQUIRE(product_called(model, "lamp").light);
+  return ies_text_of(*product_called(model, "lamp").light, "lamp");
+}
+
+/// Lambert's law in planes at these angles.
+std::vector<std::string> planes_at(const std::vector<int>& angles) {
+  std::vector<std::string> out;
+  for (const int angle : angles)
+    out.push_back(std::to_string(angle) + ".,(0.,30.,60.,90.),(318.31,275.66,159.155,0.)");
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("intensities that leave a part of the circle uncovered are rejected", "[ifc]") {
+  for (const auto& whole : std::vector<std::vector<int>>{
+           {0}, {0, 90}, {0, 90, 180}, {0, 90, 180, 270}, {0, 90, 180, 270, 360}})
+    CHECK(ies_of(StepText(), planes_at(whole)).ok());
+  const auto four = ies_of(StepText(), planes_at({0, 90, 180, 270}));
+  CHECK(four->find("\n0 90 180 270 360\n") != std::string::npos);
+  for (const auto& part : std::vector<std::vector<int>>{
+           {0, 45, 90, 135, 180, 225, 270}, {0, 30, 60, 90, 120, 150, 180, 210}, {0, 60}}) {
+    const auto refused = ies_of(StepText(), planes_at(part));
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.problem().what.find("its planes end at C") != std::string::npos);
+  }
+  // Nothing is known of the light between 120 and 180 degrees.
+  const auto above = ies_of(StepText(), {"0.,(0.,60.,90.,120.),(318.31,159.155,0.,0.)"});
+  REQUIRE_FALSE(above.ok());
+  CHECK(above.problem().what.find("do not rise from 0 to 90 or 180") != std::string::npos);
+}
+
+TEST_CASE("angles of intensities are in the unit of plane angles of the model", "[ifc]") {
+  using Angles = StepText::Angles;
+  const std::string in_degrees = "0.,(0.,30.,60.,90.),(318.31,275.66,159.155,0.)";
+  const std::string in_radians = "0.,(0.,0.5236,1.0472,1.5708),(318.31,275.66,159.155,0.)";
+  const auto degrees = ies_of(StepText("IFC4", Angles::degrees), {in_degrees});
+  const auto radians = ies_of(StepText("IFC4", Angles::radians), {in_radians});
+  REQUIRE(degrees.ok());
+  REQUIRE(radians.ok());
+  CHECK(radians.value() == degrees.value());
+  const auto mixed = ies_of(StepText("IFC4", Angles::radians), {in_degrees});
+  REQUIRE_FALSE(mixed.ok());
+  CHECK(mixed.problem().what.find("up to 5156.6 degrees") != std::string::npos);
+  CHECK_FALSE(ies_of(StepText("IFC4", Angles::degrees), {in_radians}).ok());
+  const auto unstated = ies_of(StepText("IFC4", Angles::unstated), {in_degrees});
+  REQUIRE_FALSE(unstated.ok());
+  CHECK(unstated.problem().what.find("no unit of plane angles") != std::string::npos);
+}

@@ -194,6 +194,57 @@ TEST_CASE("convex bodies cut others, and non-convex ones do not", "[ifc]") {
   CHECK_FALSE(step_solid(graph, graph.node(id_of(both)), 1e-3));
 }
 
+TEST_CASE("an operand that occurs many times in a solid is computed once", "[ifc]") {
+  StepText text;
+  std::string item = text.box({0, 0, 0}, {4000, 200, 3000});
+  for (int level = 0; level < limits::solid_depth; ++level)
+    item = text.add("IFCBOOLEANRESULT(.INTERSECTION.," + item + "," + item + ")");
+  CHECK(solid_m3(text, item) == Approx(2.4));
+}
+
+TEST_CASE("an item that is mapped many times is computed once", "[ifc]") {
+  StepText text;
+  std::string items = text.box({0, 0, 0}, {1000, 1000, 1000});
+  const std::string origin = text.axes({0, 0, 0});
+  const std::string target =
+      text.add("IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$," + text.point({0, 0, 0}) + ",$,$)");
+  constexpr int levels = 4, times = 1000;
+  for (int level = 0; level < levels; ++level) {
+    const std::string map = text.add("IFCREPRESENTATIONMAP(" + origin + "," +
+                                     text.representation(text.body, "Body", items) + ")");
+    const std::string mapped = text.add("IFCMAPPEDITEM(" + map + "," + target + ")");
+    items = mapped;
+    for (int i = 1; i < times; ++i) items += "," + mapped;
+  }
+  const std::string wall = text.wall(items);
+  const Prepared p = prepared(text.text());
+  CHECK(ifc_solid_volumes(p.file, p.model).known.at(id_of(wall)).m3 ==
+        Approx(std::pow(times, levels)));
+}
+
+TEST_CASE("solids beyond the limit of work are left out and counted", "[ifc]") {
+  StepText text;
+  for (int i = 0; i < 10; ++i) text.wall(text.box({0, 0, 0}, {4000, 200, 3000}));
+  const Prepared p = prepared(text.text());
+  constexpr uint64_t triangles_of_a_box = 12;
+  const IfcSolidVolumes some = ifc_solid_volumes(p.file, p.model, 4 * triangles_of_a_box);
+  CHECK(some.known.size() == 4);
+  CHECK(some.beyond_budget == 6);
+  CHECK(ifc_solid_volumes(p.file, p.model).beyond_budget == 0);
+}
+
+TEST_CASE("a shape whose items are listed many times is searched for a point once", "[ifc]") {
+  StepText text;
+  std::string item = text.direction({0, 0, 1});
+  for (int level = 0; level < 20; ++level) {
+    std::string all = item;
+    for (int i = 1; i < 20; ++i) all += "," + item;
+    item = text.add("IFCGEOMETRICSET((" + all + "))");
+  }
+  text.wall(item);
+  CHECK(prepared(text.text()).notes.empty());
+}
+
 TEST_CASE("only the body of a model view remains", "[ifc]") {
   StepText text;
   const std::string item = text.box({0, 0, 0}, {1000, 100, 2000});
@@ -330,6 +381,30 @@ TEST_CASE("points far from their product are moved near it, and the product back
   }
 }
 
+TEST_CASE("swept surfaces are moved by their placement, not by their profile", "[ifc]") {
+  const glm::dvec3 far(500'000'000, 5'000'000'000, 0);
+  StepText text;
+  const std::string line = text.add("IFCPOLYLINE((" + text.point(glm::dvec2(1000, 0)) + "," +
+                                    text.point(glm::dvec2(1000, 500)) + "))");
+  const std::string profile = text.add("IFCARBITRARYOPENPROFILEDEF(.CURVE.,$," + line + ")");
+  const std::string place = text.axes(far), up = text.direction({0, 0, 1});
+  const std::string axis = text.add("IFCAXIS1PLACEMENT(" + text.point({0, 0, 0}) + "," + up + ")");
+  const std::vector<std::string> walls{
+      text.wall(
+          text.add("IFCSURFACEOFLINEAREXTRUSION(" + profile + "," + place + "," + up + ",3000.)")),
+      text.wall(text.add("IFCSURFACEOFREVOLUTION(" + profile + "," + place + "," + axis + ")"))};
+  const Prepared p = prepared(text.text());
+  StepGraph graph(p.file);
+  for (const std::string& wall : walls) {
+    const StepNode shape = graph.follow(node_in(p.file, graph, wall), 6);
+    const StepNode item = graph.node(graph.node(shape.references(2).at(0)).references(3).at(0));
+    INFO(item.type());
+    CHECK(item.reference(0) == id_of(profile));
+    // The first point of the profile is the origin to which the shape is moved.
+    CHECK(graph.follow(graph.follow(item, 1), 0).numbers(0) == std::vector<double>{-1000, 0, 0});
+  }
+}
+
 TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
   const uint64_t seed = asked_number("LUXODUS_SEED", 1);
   const uint64_t tries = asked_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 2'000);
@@ -338,6 +413,7 @@ TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
   const std::string roof =
       text.without(text.box({0, 0, 0}, {4000, 200, 3000}), text.above({0, 0, 3000}, {3, 0, 4}));
   text.wall(roof);
+  text.wall(text.add("IFCBOOLEANRESULT(.INTERSECTION.," + roof + "," + roof + ")"));
   text.wall(text.extruded(text.rectangle({5e8, 5e9}, {4000, 200}), 3000));
   text.wall(text.add("IFCCSGSOLID(" +
                      text.add("IFCRIGHTCIRCULARCONE(" + text.axes({0, 0, 0}) + ",3000.,500.)") +
@@ -347,7 +423,7 @@ TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
   random.start(0);
   const size_t begin = whole.find("DATA;");
   constexpr std::string_view marks = "0123456789#().,$*'-EIFC";
-  uint64_t read = 0, mended = 0;
+  uint64_t read = 0, measured = 0, mended = 0;
   for (uint64_t i = 0; i < tries; ++i) {
     std::string harmed = whole;
     for (uint64_t k = 0; k < 1 + random.bits() % 3; ++k)
@@ -362,6 +438,10 @@ TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
       continue;
     }
     ++read;
+    for (const auto& [id, volume] : ifc_solid_volumes(input->file, model.value()).known) {
+      REQUIRE(volume.m3 >= 0);
+      ++measured;
+    }
     std::set<uint64_t> all;
     for (const IfcProduct& product : model->products) all.insert(product.id);
     if (const auto again = ifc_mended_input(input->file, model.value(), all)) {
@@ -370,5 +450,6 @@ TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
     }
   }
   CHECK(read > tries / 10);
+  CHECK(measured > tries / 10);
   CHECK(mended > tries / 100);
 }

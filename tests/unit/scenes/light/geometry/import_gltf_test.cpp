@@ -86,6 +86,33 @@ TEST_CASE("quantised positions of every type are read", "[geometry][import]") {
                   "0.01")) == Approx(2));
 }
 
+TEST_CASE("numbers of a buffer view that no buffer could satisfy are refused",
+          "[geometry][import]") {
+  const TemporaryFolder folder;
+  const std::string bytes = triangle_buffer();
+  const auto refused = [&](const std::string& of_accessor, const std::string& of_view,
+                           const std::string& why) {
+    const std::string path = folder.write(
+        "a.gltf",
+        R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
+        R"({"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,)"
+        R"("type":"VEC3",)" +
+            of_accessor + R"(}],"bufferViews":[{"buffer":0,)" + of_view + "}]," + embedded(bytes) +
+            "}");
+    INFO(of_accessor << " " << of_view);
+    refuses(path, path, 0, why);
+  };
+  const std::string beyond = "beyond its buffer", whole = R"("byteLength":42)";
+  refused(R"("count":3)", whole + R"(,"byteStride":253)", "4 to 252");
+  // 2^24 steps of 2^40 bytes are 0 in 64 bits.
+  refused(R"("count":16777217)", whole + R"(,"byteStride":1099511627776)", "4 to 252");
+  refused(R"("count":16777217)", whole, beyond);
+  refused(R"("count":3,"byteOffset":18446744073709551604)", whole, beyond);
+  refused(R"("count":3,"byteOffset":43)", whole, beyond);
+  refused(R"("count":3)", whole + R"(,"byteOffset":18446744073709551615)", beyond);
+  refused(R"("count":3)", R"("byteLength":18446744073709551615,"byteOffset":1)", beyond);
+}
+
 TEST_CASE("hidden nodes and what is below them are left out, and told", "[geometry][import]") {
   const TemporaryFolder folder;
   const std::string path = folder.write(
