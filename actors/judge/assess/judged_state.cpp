@@ -440,13 +440,13 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
   state.luminaires = scene.emitters.size();
   for (const ActiveSource& source : active_sources(scene, scenario))
     if (source.emitter != nullptr) state.lit.push_back(source.emitter->name);
+  state.smoke = has_smoke(scene, scenario);
   const Bounds part = seen_part(scene);
   for (const Medium& medium : scene.media) {
     const double factor = extinction_factor(scenario, medium.name);
     if (!(factor > 0)) continue;
     const auto [low, high] = range_of(medium, part);
     const bool flame = is_flame(medium);
-    state.smoke = state.smoke || (!flame && high > 0);
     state.media.push_back(
         {medium.name, flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
          place_of(medium), notes_on(medium, factor), factor * low, factor * high});

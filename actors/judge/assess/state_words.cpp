@@ -82,6 +82,7 @@ std::string judged_words(const StateRecord& state) {
     out += fmt::format(", {:g} s after the failure", *state.seconds_after_failure);
   if (!state.smoke) return out + ", in clear air";
   const ExtinctionRecord& extinction = state.smoke->extinction;
+  if (extinction.max == 0) return out + english()("headline.smoke_elsewhere");
   return out + ", in smoke of " + range_words(extinction.min, extinction.max);
 }
 

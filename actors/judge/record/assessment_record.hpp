@@ -40,7 +40,8 @@ struct LitRecord {
   }
 };
 
-/// Range of the extinction of all smoke, without flames [1/m].
+/// Range of the extinction of all smoke, without flames [1/m]; its `max` is 0 where the smoke lies
+/// outside the building or the heights at which people look.
 struct ExtinctionRecord {
   double min = 0, max = 0;
   double wavelength_nm = 0;

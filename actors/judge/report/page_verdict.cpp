@@ -18,6 +18,7 @@ std::string judged_text(const Texts& t, const StateRecord& state) {
   if (state.seconds_after_failure)
     out += t.say("headline.seconds", t.number(*state.seconds_after_failure, 6));
   if (!state.smoke) return out + t("headline.clear");
+  if (state.smoke->extinction.max == 0) return out + t("headline.smoke_elsewhere");
   return out + t.say("headline.smoke", range_text(t, state.smoke->extinction));
 }
 
