@@ -388,7 +388,16 @@ TEST_CASE("events and heat of a part that a restart made void do not count", "[f
   c.folder.write("small_hrr.csv",
                  "s,kW\nTime,HRR\n 0.0,0.0\n 13.0,999\n 14.0,999\n 7.0,70\n 12.0,120\n");
   c.options.flames = true;
-  CHECK(smoke_of(c.read(12)).heat_release_kw == Approx(120));
+  const LoadedFire fire = smoke_of(c.read(12));
+  CHECK(fire.heat_release_kw == Approx(120));
+  CHECK(any_tells(fire.notes, "times in small_hrr.csv go back from 14 to 7 s"));
+  // A time that is written twice is one line, the later one.
+  c.folder.write("small_hrr.csv", "s,kW\nTime,HRR\n 0.0,0.0\n 12.0,999\n 12.0,120\n");
+  const LoadedFire again = smoke_of(c.read(12));
+  CHECK(again.heat_release_kw == Approx(120));
+  CHECK(any_tells(again.notes, "times in small_hrr.csv go back from 12 to 12 s"));
+  c.folder.write("small_hrr.csv", "s,kW\nTime,HRR\n 0.0,0.0\n 12.0,120\n");
+  CHECK(smoke_of(c.read(12)).notes.empty());
 }
 
 TEST_CASE("optical density counts with 2.3 up to FDS 6.10, and with ln 10 from 6.11 on",
