@@ -458,6 +458,23 @@ TEST_CASE("a colour or an opacity of the index that is no number from 0 to 1 is 
   }
 }
 
+TEST_CASE("a time between frames is in reach where one mesh has fewer frames than another",
+          "[format][fds]") {
+  SmokeCase c;
+  c.meshes = {even_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
+              even_mesh({1, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const auto cells = cell_values(c.meshes[0], even(1));
+  std::vector<SmallFrame> often, seldom;
+  for (int t = 0; t <= 20; ++t) often.push_back({static_cast<float>(t), cells});
+  for (int t = 0; t <= 20; t += 10) seldom.push_back({static_cast<float>(t), cells});
+  c.folder.write("a.sf", slice_file(c.meshes[0], soot_extinction, often));
+  c.folder.write("b.sf", slice_file(c.meshes[1], soot_extinction, seldom));
+  c.index(slice_entry(1, true, c.meshes[0], "a.sf", soot_extinction) +
+          slice_entry(2, true, c.meshes[1], "b.sf", soot_extinction));
+  CHECK(smoke_of(c.read(4)).time_s == 0);
+  CHECK(smoke_of(c.read(6)).time_s == 10);
+}
+
 TEST_CASE("optical density counts with 2.3 up to FDS 6.10, and with ln 10 from 6.11 on",
           "[format][fds]") {
   SmokeCase c;
