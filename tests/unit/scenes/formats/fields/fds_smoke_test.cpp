@@ -475,6 +475,20 @@ TEST_CASE("a time between frames is in reach where one mesh has fewer frames tha
   CHECK(smoke_of(c.read(6)).time_s == 10);
 }
 
+TEST_CASE("a mesh that is stretched too much is refused with the limit", "[format][fds]") {
+  SmokeCase c;
+  SmallMesh& mesh = c.meshes[0];
+  mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+  c.folder.write("a.sf", slice_file(mesh, soot_extinction, {{0, cell_values(mesh, even(1))}}));
+  const auto refused = [&](double thin_m) {
+    for (auto& nodes : mesh.nodes) nodes[1] = thin_m;
+    c.index(slice_entry(1, true, mesh, "a.sf", soot_extinction));
+    return refused_fire(c.read(0));
+  };
+  CHECK(tells(refused(0.0001), "it would have more than 8192 there"));
+  CHECK(tells(refused(0.00131), "and at most 1073741824 are read"));
+}
+
 TEST_CASE("optical density counts with 2.3 up to FDS 6.10, and with ln 10 from 6.11 on",
           "[format][fds]") {
   SmokeCase c;
