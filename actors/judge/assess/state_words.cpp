@@ -124,7 +124,7 @@ std::string state_text(const AssessmentRecord& assessment) {
 }
 
 bool anything_open(const AssessmentRecord& assessment) {
-  const CountsRecord& counts = assessment.counts;
+  const CountsRecord& counts = assessment.verdict.counts;
   return counts.fail + counts.not_assessed + counts.not_verified > 0 ||
          assessment.sight_counts.contains(name_of(SightVerdict::undecided)) ||
          assessment.sight_counts.contains(name_of(SightVerdict::not_assessed));

@@ -43,7 +43,7 @@ std::string headline(const Texts& t, const AssessmentRecord& a) {
   for (const RulesRecord& rule : a.state.rules)
     rules += (rules.empty() ? "" : t("headline.and")) + rule.edition;
   std::string out =
-      t.say("headline.by", judged_text(t, a.state), rules, verdict_words(t, a.counts));
+      t.say("headline.by", judged_text(t, a.state), rules, verdict_words(t, a.verdict.counts));
   size_t all = 0, legible = 0;
   for (const auto& [verdict, times] : a.sight_counts) {
     all += times;
