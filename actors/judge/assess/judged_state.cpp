@@ -291,12 +291,6 @@ void add_people(const SceneDescription& scene, const AssessedState& state, Remar
     remarks.push_back(remark(RemarkId::two_continents));
 }
 
-/// The share of the light of flames that a state leaves them.
-double flame_share(const Scenario& scenario, const Medium& m) {
-  if (!m.emission || factor_of(scenario.media, m.name, 1) <= 0) return 0;
-  return scenario.emission_factor * factor_of(scenario.circuits, m.emission->circuit, 1);
-}
-
 void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
   auto& remarks = state.remarks;
   const auto warn = [&state](const Remark& one) {
