@@ -355,10 +355,9 @@ bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
 Result<Scenario> judged_scenario(const SceneDescription& scene, const std::string& named) {
   if (!named.empty()) return find_scenario(scene, named);
   if (scene.scenarios.empty())
-    return problem_in(
-        scene.file,
-        "there is no [[scenario]], so that it is not said which state is to be judged: "
-        "write [[scenario]] with name = \"emergency\" and operation = \"emergency\"");
+    return problem_in(scene.file,
+                      "there is no [[scenario]], so the state to be judged is not known: "
+                      "write [[scenario]] with name = \"emergency\" and operation = \"emergency\"");
   const bool smoky = std::any_of(scene.scenarios.begin(), scene.scenarios.end(),
                                  [&](const Scenario& s) { return has_smoke(scene, s); });
   const char* const with = smoky ? " with smoke" : "";
@@ -402,11 +401,12 @@ Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& s
   });
   return problem_in(
       scene.assessment.place.line > 0 ? scene.assessment.place : smoke->place,
-      fmt::format("whether the smoke \"{}\" of scenario \"{}\" stings is not said, and "
-                  "verdicts on signs follow from it: write irritant_smoke = true (wood, "
-                  "plastics and most fires) or irritant_smoke = false (theatre smoke) "
-                  "in [assessment]",
-                  smoke->name, scenario.name));
+      fmt::format(
+          "the scene does not state whether the smoke \"{}\" of scenario \"{}\" is "
+          "irritant, and verdicts on signs depend on it: write irritant_smoke = true (wood, "
+          "plastics and most fires) or irritant_smoke = false (theatre smoke) "
+          "in [assessment]",
+          smoke->name, scenario.name));
 }
 
 Remarks overruled(const SceneDescription& scene, const std::vector<std::string>& rules,

@@ -203,7 +203,7 @@ class FireReader {
   Result<std::vector<float>> smoke_nodes(const Mesh& mesh, const FrameFiles& files,
                                          const Frame& frame, const std::vector<uint8_t>& bytes) {
     if (files.format == SmokeFormat::opacity) return extinction_of_opacities(mesh, bytes);
-    // Whatever bytes say of so little, it is nothing.
+    // So low a density dims nothing, whatever its bytes are.
     if (frame.highest < negligible_kg_m3) return values_of_shares(bytes, 0);
     const uint8_t most = bytes.empty() ? 0 : *std::max_element(bytes.begin(), bytes.end());
     if (most != highest_share)

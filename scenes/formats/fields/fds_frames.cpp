@@ -45,8 +45,8 @@ class RecordWalk {
   bool has(uint64_t payload) const { return left() >= payload + 2 * mark_bytes; }
 
   Problem damage(const std::string& what) const {
-    return problem_in(path_.string(), fmt::format("{}, at byte {}: the file is damaged, or none of "
-                                                  "this kind",
+    return problem_in(path_.string(), fmt::format("{}, at byte {}: the file is damaged, or of "
+                                                  "another kind",
                                                   what, at_));
   }
 

@@ -338,8 +338,8 @@ class SmokeChooser {
             : "");
     if (smokes_.empty() && !fire_.dense.empty())
       out += fmt::format(
-          "; it has the density of {}, whose mass extinction is not in its index: is it smoke, "
-          "then 'mass_extinction' states it",
+          "; it has the density of {}, whose mass extinction is not in its index: if it is "
+          "smoke, state its 'mass_extinction'",
           fmt::join(fire_.dense, " and "));
     return out;
   }
