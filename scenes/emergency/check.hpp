@@ -17,6 +17,7 @@ namespace luxodus {
 /// not_verified: the value was compared with a limit that is known from memory alone, so the check
 /// neither passes nor fails.
 enum class CheckVerdict { pass, fail, not_assessed, information, not_verified };
+inline constexpr size_t check_verdicts = static_cast<size_t>(CheckVerdict::not_verified) + 1;
 const char* name_of(CheckVerdict verdict);
 
 /// The rules that this program knows, by ids of ours. What each asks, and where it is quoted from:
@@ -125,7 +126,7 @@ Check judged(Rule rule, Subject subject, double value,
 Check not_assessed(Rule rule, Subject subject, Remark reason);
 
 /// Number of checks with each verdict, indexed by CheckVerdict.
-using CheckCounts = std::array<size_t, 5>;
+using CheckCounts = std::array<size_t, check_verdicts>;
 CheckCounts counts_of(const std::vector<Check>& checks);
 size_t count_of(const CheckCounts& counts, CheckVerdict verdict);
 /// "3 checks fail, 2 not assessed", "no check made fails, 2 not assessed, 1 not verified". Never

@@ -66,6 +66,7 @@ GuidedTime guided_time(const GuidedRoute& route);
 /// the last one before the walker reaches it to the first one after he reaches the next place.
 struct GuidedWalk {
   enum class End { arrives, lost, unknown };  // unknown: still walking after the last state
+  static constexpr size_t ends = static_cast<size_t>(End::unknown) + 1;
   double start_s = 0;
   End end = End::arrives;
   double at_m = 0, at_s = 0;  // where and when the walk ends

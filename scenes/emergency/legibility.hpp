@@ -32,6 +32,7 @@ struct SignLook {
 };
 
 enum class SightVerdict { legible, visible, invisible, hidden, undecided, not_assessed };
+inline constexpr size_t sight_verdicts = static_cast<size_t>(SightVerdict::not_assessed) + 1;
 /// "visible but not legible", ...
 const char* name_of(SightVerdict verdict);
 

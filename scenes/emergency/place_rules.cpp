@@ -16,8 +16,6 @@ using namespace rule_limit;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Floors whose heights differ by less belong to one storey: landings, ramps, stages [m].
-constexpr double storey_m = 2;
 constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
 
 double glare_limit(double height_m) {

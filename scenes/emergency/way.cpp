@@ -99,12 +99,17 @@ std::vector<glm::dvec3> within(const EscapeRoute& route, double half_width_m, do
   return out;
 }
 
-std::vector<glm::dvec3> within(const AssessedArea& area, double border_m, double spacing_m) {
-  glm::dvec2 low = area.outline.front(), high = low;
+PlanBox plan_box_of(const AssessedArea& area) {
+  PlanBox out{area.outline.front(), area.outline.front()};
   for (const glm::dvec2& p : area.outline) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    out.low = glm::min(out.low, p);
+    out.high = glm::max(out.high, p);
   }
+  return out;
+}
+
+std::vector<glm::dvec3> within(const AssessedArea& area, double border_m, double spacing_m) {
+  auto [low, high] = plan_box_of(area);
   low += border_m;
   high -= border_m;
   std::vector<glm::dvec3> out;

@@ -9,6 +9,9 @@
 
 namespace luxodus {
 
+/// Floors whose heights differ by less belong to one storey: landings, ramps, stages [m].
+inline constexpr double storey_m = 2;
+
 /// Length along the centre line [m].
 double length_of(const EscapeRoute& route);
 /// Whether all points of its path have the same height.
@@ -23,6 +26,13 @@ std::vector<glm::dvec3> within(const EscapeRoute& route, double half_width_m, do
 
 /// Points of a square grid over an area, at least `border_m` away from its edge.
 std::vector<glm::dvec3> within(const AssessedArea& area, double border_m, double spacing_m);
+
+/// The box around an area, seen from above [m].
+struct PlanBox {
+  glm::dvec2 low{0}, high{0};
+  glm::dvec2 size() const { return high - low; }
+};
+PlanBox plan_box_of(const AssessedArea& area);
 
 /// A person on an escape route.
 struct Walker {

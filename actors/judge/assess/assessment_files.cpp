@@ -98,16 +98,6 @@ CsvTable sights_csv(const AssessmentRecord& assessment) {
   return table;
 }
 
-/// Without issues, those of an earlier assessment are removed.
-Result<void> write_issues(const fs::path& file, const std::optional<std::string>& issues) {
-  if (issues) return write_file_atomically(file, std::string_view(*issues));
-  std::error_code failed;
-  fs::remove(file, failed);
-  if (failed)
-    return system_problem(file, "cannot remove what an earlier run has left", failed.value());
-  return {};
-}
-
 }  // namespace
 
 Result<void> write_assessment(const fs::path& folder, const AssessmentRecord& assessment) {
@@ -122,7 +112,7 @@ Result<void> write_assessment(const fs::path& folder, const AssessmentRecord& as
   if (auto ok = write_or_remove(folder / "property_sets.csv", property_sets_by_guid(assessment));
       !ok)
     return ok;
-  if (auto ok = write_issues(folder / "issues.bcf", bcf_issues(assessment)); !ok) return ok;
+  if (auto ok = write_or_remove(folder / "issues.bcf", bcf_issues(assessment)); !ok) return ok;
   std::optional<CsvTable> guided;
   if (assessment.over_time) guided = guidance_csv(*assessment.over_time);
   return write_or_remove(folder / "guided.csv", guided);

@@ -7,6 +7,7 @@
 
 #include "actors/judge/assess/judged_state.hpp"
 #include "actors/judge/assess/plan_cut.hpp"
+#include "actors/judge/inspect/site.hpp"
 #include "runtime/core/base64.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/formats/images/logo.hpp"
@@ -41,11 +42,6 @@ const char* word_of(MaterialKind kind) {
 const char* word_of(MediumKind kind) {
   constexpr const char* words[] = {"homogeneous", "layered", "bounded", "data_set"};
   return words[static_cast<size_t>(kind)];
-}
-
-/// Mean of a spectrum weighted by V(lambda), in equal-energy light.
-double luminous_mean(const Spectrum& s) {
-  return s.integral_with(cie_y()) / cie_y().integral();
 }
 
 LuminaireRecord luminaire_of(const Emitter& e) {

@@ -1,12 +1,16 @@
-// An issue's identifiers follow from its scene, rule and subject: a second assessment of the same
-// scene updates the issues of the first in a program, and equal assessments give equal bytes.
+// An issue's identifiers follow from the ids of its rule, subject and conditions, not from the
+// sentences about them: a second assessment of the same scene, in whatever words, updates the
+// issues of the first in a program, and equal assessments give equal bytes.
 #include "actors/judge/assess/bcf_issues.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <map>
 #include <vector>
 
+#include "actors/judge/assess/plan_cut.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/stored_zip.hpp"
 #include "runtime/core/hash.hpp"
@@ -22,16 +26,41 @@ constexpr size_t ifc_guid_length = 22;
 /// A camera stands this far from what it shows, at the height of an eye above a floor [m].
 constexpr double camera_distance_m = 2.5, camera_height_m = 1.6;
 constexpr double field_of_view_deg = 60;
-/// The height over a floor within which a place is in an area [m].
-constexpr double storey_m = 1.5;
+/// A place up to this far below the floor of an area is still over it [m].
+constexpr double sunk_m = 0.1;
 
-/// A UUID in the form of version 8 (RFC 9562), made of hashes.
-std::string uuid_of(std::string_view text) {
+/// Adds what distinguishes a check from the others of its scene. A condition counts by its id and
+/// by the time after the failure. Other arguments, such as the luminaire whose failure is the
+/// worst, are results, which change while the issue remains.
+void add_identity(Hasher& hasher, const Check& check) {
+  hasher.add(check.rule.set);
+  hasher.add(check.rule.deviation);
+  hasher.add(name_of(check.rule.id));
+  hasher.add(name_of(check.subject.kind));
+  hasher.add(check.subject.name);
+  const bool emphasis = check.subject.kind == SubjectKind::emphasis;
+  hasher.add(emphasis ? emphasis_words.at(static_cast<size_t>(check.subject.emphasis)) : "");
+  for (const Remark& condition : check.conditions) {
+    hasher.add(kind_of(condition.id).name);
+    if (condition.id != RemarkId::after_mains_failure) continue;
+    for (const RemarkArgument& one : condition.arguments)
+      if (const double* seconds = std::get_if<double>(&one))
+        hasher.add(std::bit_cast<uint64_t>(*seconds));
+  }
+}
+
+/// A UUID in the form of version 8 (RFC 9562), made of hashes. `what`: "topic" or "viewpoint";
+/// `repeat`: how many checks of equal identity come before this one.
+std::string uuid_of(std::string_view what, const std::string& scene, const Check& check,
+                    uint64_t repeat) {
   uint64_t words[2];
   for (uint64_t i = 0; i < 2; ++i) {
     Hasher hasher;
     hasher.add(i);
-    hasher.add(text);
+    hasher.add(what);
+    hasher.add(scene);
+    add_identity(hasher, check);
+    hasher.add(repeat);
     words[i] = hasher.value();
   }
   return fmt::format("{:08x}-{:04x}-8{:03x}-{:04x}-{:012x}", words[0] >> 32,
@@ -67,15 +96,28 @@ glm::dvec3 middle_of(const AreaRecord& area) {
   return {sum / n, area.z_m};
 }
 
-/// The area, with a GlobalId, over which a place is.
-const AreaRecord* area_at(const std::vector<AreaRecord>& areas, const glm::dvec3& place) {
-  for (const AreaRecord& area : areas) {
-    const double above = place.z - area.z_m;
-    if (is_ifc_guid(area.ifc_guid) && above > -0.1 && above < storey_m &&
-        is_within(area.outline, glm::dvec2(place)))
-      return &area;
+/// The area over which a place is: on the level of the place the one with the highest floor below
+/// it, of those with a GlobalId if `with_guid`; none if it is over no such area of its level.
+const AreaRecord* area_below(const AssessmentRecord& a, const glm::dvec3& place, bool with_guid) {
+  const std::vector<PlanLevel>& levels = a.plan.levels;
+  const AreaRecord* out = nullptr;
+  for (const AreaRecord& area : a.places.areas) {
+    if (area.z_m > place.z + sunk_m || level_of(levels, area.z_m) != level_of(levels, place.z) ||
+        !is_within(area.outline, glm::dvec2(place)) || (with_guid && !is_ifc_guid(area.ifc_guid)))
+      continue;
+    if (out == nullptr || area.z_m > out->z_m) out = &area;
   }
-  return nullptr;
+  return out;
+}
+
+/// The height of the highest floor below a place [m]. Where no floor below it is known, it is taken
+/// as at the height of an eye above one.
+double floor_below(const AssessmentRecord& a, const glm::dvec3& place) {
+  if (const AreaRecord* area = area_below(a, place, false)) return area->z_m;
+  const std::vector<PlanLevel>& levels = a.plan.levels;
+  const size_t level = level_of(levels, place.z);
+  if (levels.empty() || levels[level].floor_m > place.z + sunk_m) return place.z - camera_height_m;
+  return levels[level].floor_m;
 }
 
 /// A part of the building by its name.
@@ -113,16 +155,17 @@ IssueSubject subject_of(const AssessmentRecord& a, const Check& check) {
   IssueSubject out = named_subject(a, check.subject);
   if (check.worst) out.place = *check.worst;
   if (out.guid.empty() && out.place)
-    if (const AreaRecord* area = area_at(a.places.areas, *out.place)) out.guid = area->ifc_guid;
+    if (const AreaRecord* area = area_below(a, *out.place, true)) out.guid = area->ifc_guid;
   return out;
 }
 
-/// Where the camera stands: in front of a sign; above the floor beside another place, on the side
-/// of the middle of its area.
+/// Where the camera stands: in front of a sign; beside another place, on the side of the middle of
+/// its area, at the height of an eye above the floor below the place. A place at or above that
+/// height is below a ceiling, and so is the camera.
 glm::dvec3 eye_for(const AssessmentRecord& a, const IssueSubject& subject) {
   const glm::dvec3 at = *subject.place;
   if (subject.front) return at + camera_distance_m * *subject.front;
-  const AreaRecord* area = area_at(a.places.areas, at);
+  const AreaRecord* area = area_below(a, at, false);
   glm::dvec3 way(1, 0, 0);
   double far = camera_distance_m;
   if (area != nullptr) {
@@ -135,9 +178,8 @@ glm::dvec3 eye_for(const AssessmentRecord& a, const IssueSubject& subject) {
       far = 1;
     }
   }
-  const double floor = area != nullptr ? area->z_m : at.z;
-  const bool overhead = at.z > floor + camera_height_m;
-  return glm::dvec3(at + far * way) + glm::dvec3(0, 0, overhead ? -1 : camera_height_m);
+  const glm::dvec3 eye = at + far * way;
+  return {eye.x, eye.y, floor_below(a, at) + camera_height_m};
 }
 
 std::string vector_xml(const char* name, const glm::dvec3& v) {
@@ -226,15 +268,14 @@ std::optional<std::string> bcf_issues(const AssessmentRecord& assessment) {
                           "<Version VersionId=\"2.1\"><DetailedVersion>2.1</DetailedVersion>"
                           "</Version>\n"}};
   size_t index = 0;
+  std::map<std::string, uint64_t> repeats;  // by the identifier of the first
   for (const Check& check : assessment.checks) {
     if (check.verdict != CheckVerdict::fail || index >= limits::bcf_issues) continue;
-    const std::string key = assessment.scene.name + "\n" + check.rule.set + "\n" + title_of(check) +
-                            "\n" + english().remarks(check.conditions);
-    const std::string topic = uuid_of("topic\n" + key), viewpoint = uuid_of("viewpoint\n" + key);
+    const std::string& scene = assessment.scene.name;
+    const uint64_t repeat = repeats[uuid_of("topic", scene, check, 0)]++;
+    const std::string topic = uuid_of("topic", scene, check, repeat);
+    const std::string viewpoint = uuid_of("viewpoint", scene, check, repeat);
     const std::string folder = topic + "/";
-    if (std::any_of(files.begin(), files.end(),
-                    [&](const auto& file) { return file.first == folder + "markup.bcf"; }))
-      continue;
     ++index;
     files.emplace_back(folder + "markup.bcf",
                        markup_xml(assessment, check, topic, viewpoint, index));

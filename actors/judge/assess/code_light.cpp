@@ -25,9 +25,6 @@ constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
 /// A surface less than this above the floor of a route is no floor but a desk or counter [m].
 constexpr double desk_m = 1.3;
 
-/// Luminaires whose heights differ by less form one storey, and are tested together [m].
-constexpr double one_storey_m = 2;
-
 /// A box around all points from which an emitter may shine.
 Bounds box_of(const CompiledEmitter& e, const glm::dvec3& origin) {
   Bounds out;
@@ -141,6 +138,7 @@ CodeLight::CodeLight(const SceneDescription& scene, const Building& building,
 }
 
 /// From the lowest luminaire up: one too far above the lowest of its storey begins a new storey.
+/// Those of a storey are tested together.
 void CodeLight::find_storeys() {
   std::vector<uint32_t> by_height(columns_.size());
   std::iota(by_height.begin(), by_height.end(), 0U);
@@ -150,7 +148,7 @@ void CodeLight::find_storeys() {
   std::stable_sort(by_height.begin(), by_height.end(),
                    [&](uint32_t a, uint32_t b) { return boxes[a].low.z < boxes[b].low.z; });
   for (const uint32_t i : by_height) {
-    if (storeys_.empty() || boxes[i].low.z > storeys_.back().box.low.z + one_storey_m)
+    if (storeys_.empty() || boxes[i].low.z > storeys_.back().box.low.z + storey_m)
       storeys_.emplace_back();
     storeys_.back().box.extend(boxes[i]);
     storeys_.back().luminaires.push_back(i);

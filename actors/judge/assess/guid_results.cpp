@@ -17,21 +17,40 @@ const std::vector<std::string> guid_columns{"ifc_guid", "kind",   "name",  "rule
                                             "edition",  "clause", "title", "condition", "value",
                                             "unit",     "sense",  "limit", "verdict",   "reason"};
 
+/// A thing of a model with what the assessment says of it. Points into the assessment.
 struct ModelThing {
   std::string guid, kind, name;
+  std::vector<const Check*> checks = {};
+  const QuantityRecord* emergency_flux = nullptr;  // of a luminaire
+  std::map<std::string, int> views = {};           // of a sign: their number by verdict
 };
 
 /// Things with a GlobalId by their subject in checks, ordered by name.
-std::map<std::pair<std::string_view, std::string>, ModelThing> things_by_subject(
-    const AssessmentRecord& a) {
-  std::map<std::pair<std::string_view, std::string>, ModelThing> out;
+using ModelThings = std::map<std::pair<std::string_view, std::string>, ModelThing>;
+
+ModelThings things_by_subject(const AssessmentRecord& a) {
+  ModelThings out;
   const auto add = [&](const auto& row, SubjectKind subject, const char* kind) {
     if (!row.ifc_guid.empty()) out[{name_of(subject), row.name}] = {row.ifc_guid, kind, row.name};
   };
-  for (const LuminaireRecord& one : a.luminaires) add(one, SubjectKind::luminaire, "luminaire");
+  const auto thing_of = [&](SubjectKind subject, const std::string& name) {
+    const auto at = out.find({name_of(subject), name});
+    return at == out.end() ? nullptr : &at->second;
+  };
+  for (const LuminaireRecord& one : a.luminaires) {
+    add(one, SubjectKind::luminaire, "luminaire");
+    if (ModelThing* thing = thing_of(SubjectKind::luminaire, one.name))
+      thing->emergency_flux = &one.emergency_flux;
+  }
   for (const SignRecord& one : a.signs) add(one, SubjectKind::sign, "sign");
   for (const AreaRecord& area : a.places.areas)
     add(area, area.is_task ? SubjectKind::task_area : SubjectKind::open_area, "space");
+  for (const Check& check : a.checks)
+    if (ModelThing* thing = thing_of(check.subject.kind, check.subject.name))
+      thing->checks.push_back(&check);
+  for (const SightRecord& sight : a.sights)
+    if (ModelThing* thing = thing_of(SubjectKind::sign, sight.sign))
+      ++thing->views[name_of(sight.verdict)];
   return out;
 }
 
@@ -57,28 +76,18 @@ void put_information(CsvTable& table, const ModelThing& thing, const char* title
             none, none, "information", some(reason));
 }
 
-void put_flux(CsvTable& table, const ModelThing& thing,
-              const std::vector<LuminaireRecord>& luminaires) {
-  for (const LuminaireRecord& one : luminaires)
-    if (one.ifc_guid == thing.guid && one.name == thing.name)
-      put_information(table, thing, "emergency flux", one.emergency_flux.value,
-                      one.emergency_flux.unit, "");
-}
-
-void put_views(CsvTable& table, const ModelThing& thing, const std::vector<SightRecord>& sights) {
-  std::map<std::string, int> verdicts;
-  int views = 0;
-  for (const SightRecord& sight : sights) {
-    if (sight.sign != thing.name) continue;
-    ++views;
-    ++verdicts[name_of(sight.verdict)];
-  }
-  if (views == 0) return;
+void put_views(CsvTable& table, const ModelThing& thing) {
+  if (thing.views.empty()) return;
+  int all = 0;
   std::string words;
-  for (const auto& [verdict, count] : verdicts)
+  for (const auto& [verdict, count] : thing.views) {
+    all += count;
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, verdict);
+  }
+  const auto legible = thing.views.find(name_of(SightVerdict::legible));
   put_information(table, thing, "views from which it is legible",
-                  verdicts[name_of(SightVerdict::legible)], fmt::format("of {}", views), words);
+                  legible == thing.views.end() ? 0 : legible->second, fmt::format("of {}", all),
+                  words);
 }
 
 // ---- property sets
@@ -134,11 +143,10 @@ std::optional<CsvTable> results_by_guid(const AssessmentRecord& assessment) {
   if (things.empty()) return std::nullopt;
   CsvTable table(guid_columns);
   for (const auto& [subject, thing] : things) {
-    for (const Check& check : assessment.checks)
-      if (name_of(check.subject.kind) == subject.first && check.subject.name == subject.second)
-        put_check(table, thing, check);
-    if (thing.kind == "luminaire") put_flux(table, thing, assessment.luminaires);
-    if (thing.kind == "sign") put_views(table, thing, assessment.sights);
+    for (const Check* check : thing.checks) put_check(table, thing, *check);
+    if (const QuantityRecord* flux = thing.emergency_flux)
+      put_information(table, thing, "emergency flux", flux->value, flux->unit, "");
+    put_views(table, thing);
   }
   return table;
 }
@@ -149,13 +157,9 @@ std::optional<CsvTable> property_sets_by_guid(const AssessmentRecord& assessment
   CsvTable table({"GlobalId", "PropertySet", "Property", "Value", "ValueType", "Unit"});
   for (const auto& [subject, thing] : things) {
     PropertyRows rows(table, thing);
-    for (const Check& check : assessment.checks)
-      if (name_of(check.subject.kind) == subject.first && check.subject.name == subject.second)
-        rows.add_check(check);
-    if (thing.kind != "luminaire") continue;
-    for (const LuminaireRecord& luminaire : assessment.luminaires)
-      if (luminaire.ifc_guid == thing.guid && luminaire.name == thing.name)
-        rows.add("Luxodus_EmergencyLighting", "EmergencyFlux", luminaire.emergency_flux);
+    for (const Check* check : thing.checks) rows.add_check(*check);
+    if (thing.emergency_flux != nullptr)
+      rows.add("Luxodus_EmergencyLighting", "EmergencyFlux", *thing.emergency_flux);
   }
   return table;
 }

@@ -1,6 +1,5 @@
 // Results of an assessment for things from an IFC model, by their GlobalId, so that the program of
-// the model can import them as properties. Pure function; any
-// thread.
+// the model can import them as properties. Pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -14,8 +13,9 @@ namespace luxodus {
 /// each such luminaire, and for the views of each such sign. None if nothing has a GlobalId.
 std::optional<CsvTable> results_by_guid(const AssessmentRecord& assessment);
 
-/// The same as properties of property sets, one a row: a set for each rule set, in it value, limit
-/// and verdict of each check, with the IFC type of the value. None if nothing has a GlobalId.
+/// The checks and fluxes as properties of property sets, one a row: a set for each rule set, in it
+/// value, limit and verdict of each check, and a set of the emergency flux, with the IFC type of
+/// the value. None if nothing has a GlobalId.
 std::optional<CsvTable> property_sets_by_guid(const AssessmentRecord& assessment);
 
 }  // namespace luxodus

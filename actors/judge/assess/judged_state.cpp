@@ -291,12 +291,6 @@ void add_people(const SceneDescription& scene, const AssessedState& state, Remar
     remarks.push_back(remark(RemarkId::two_continents));
 }
 
-/// The share of the light of flames that a state leaves them.
-double flame_share(const Scenario& scenario, const Medium& m) {
-  if (!m.emission || factor_of(scenario.media, m.name, 1) <= 0) return 0;
-  return scenario.emission_factor * factor_of(scenario.circuits, m.emission->circuit, 1);
-}
-
 void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
   auto& remarks = state.remarks;
   const auto warn = [&state](const Remark& one) {
@@ -361,10 +355,9 @@ bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
 Result<Scenario> judged_scenario(const SceneDescription& scene, const std::string& named) {
   if (!named.empty()) return find_scenario(scene, named);
   if (scene.scenarios.empty())
-    return problem_in(
-        scene.file,
-        "there is no [[scenario]], so that it is not said which state is to be judged: "
-        "write [[scenario]] with name = \"emergency\" and operation = \"emergency\"");
+    return problem_in(scene.file,
+                      "there is no [[scenario]], so the state to be judged is not known: "
+                      "write [[scenario]] with name = \"emergency\" and operation = \"emergency\"");
   const bool smoky = std::any_of(scene.scenarios.begin(), scene.scenarios.end(),
                                  [&](const Scenario& s) { return has_smoke(scene, s); });
   const char* const with = smoky ? " with smoke" : "";
@@ -408,11 +401,12 @@ Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& s
   });
   return problem_in(
       scene.assessment.place.line > 0 ? scene.assessment.place : smoke->place,
-      fmt::format("whether the smoke \"{}\" of scenario \"{}\" stings is not said, and "
-                  "verdicts on signs follow from it: write irritant_smoke = true (wood, "
-                  "plastics and most fires) or irritant_smoke = false (theatre smoke) "
-                  "in [assessment]",
-                  smoke->name, scenario.name));
+      fmt::format(
+          "the scene does not state whether the smoke \"{}\" of scenario \"{}\" is "
+          "irritant, and verdicts on signs depend on it: write irritant_smoke = true (wood, "
+          "plastics and most fires) or irritant_smoke = false (theatre smoke) "
+          "in [assessment]",
+          smoke->name, scenario.name));
 }
 
 Remarks overruled(const SceneDescription& scene, const std::vector<std::string>& rules,
@@ -440,13 +434,13 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
   state.luminaires = scene.emitters.size();
   for (const ActiveSource& source : active_sources(scene, scenario))
     if (source.emitter != nullptr) state.lit.push_back(source.emitter->name);
+  state.smoke = has_smoke(scene, scenario);
   const Bounds part = seen_part(scene);
   for (const Medium& medium : scene.media) {
     const double factor = extinction_factor(scenario, medium.name);
     if (!(factor > 0)) continue;
     const auto [low, high] = range_of(medium, part);
     const bool flame = is_flame(medium);
-    state.smoke = state.smoke || (!flame && high > 0);
     state.media.push_back(
         {medium.name, flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
          place_of(medium), notes_on(medium, factor), factor * low, factor * high});

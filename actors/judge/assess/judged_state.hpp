@@ -26,8 +26,8 @@ struct AssessedState {
   std::optional<double> seconds_after_failure;  // none if the scenario states no time
   size_t luminaires = 0;                        // number in the scene
   std::vector<std::string> lit;                 // names of the luminaires lit in this state
-  bool smoke = false;                           // whether there are media other than flames
-  std::vector<StatedMedium> media;              // flames included
+  bool smoke = false;               // whether there is smoke, even if none where people look
+  std::vector<StatedMedium> media;  // flames included
   std::vector<CodeChoice> codes;
   Remark light{RemarkId::no_luminaire_lit};  // the light by which views were judged
   Remarks remarks;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/emergency/way.hpp"
+
 namespace luxodus {
 
 namespace {
 
 constexpr double breast_m = 1.2;
-/// A floor less than this above another is a landing or a ramp of it [m].
-constexpr double storey_m = 2;
 /// A place up to this far below a floor still belongs to it [m].
 constexpr double sunk_m = 0.5;
 /// Margin of an illuminance map around routes and areas [m].

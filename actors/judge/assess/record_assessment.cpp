@@ -152,9 +152,8 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
                assessment.state.scenario};
   out.state = state_record(assessment.state);
   const CheckCounts counts = counts_of(assessment.checks);
-  out.counts = CountsRecord::of(counts);
   for (const SightRow& row : assessment.sights) ++out.sight_counts[name_of(row.sight.verdict)];
-  out.verdict = {first_sentence(out, words_of(counts)), words_of(counts), out.counts};
+  out.verdict = {first_sentence(out, words_of(counts)), words_of(counts), CountsRecord::of(counts)};
   out.not_assessed = not_assessed_of(assessment);
   out.people = {scene.assessment.age_years, scene.assessment.spacing_m,
                 scene.assessment.irritant_smoke};

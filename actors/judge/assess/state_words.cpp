@@ -82,6 +82,7 @@ std::string judged_words(const StateRecord& state) {
     out += fmt::format(", {:g} s after the failure", *state.seconds_after_failure);
   if (!state.smoke) return out + ", in clear air";
   const ExtinctionRecord& extinction = state.smoke->extinction;
+  if (extinction.max == 0) return out + english()("headline.smoke_elsewhere");
   return out + ", in smoke of " + range_words(extinction.min, extinction.max);
 }
 
@@ -123,7 +124,7 @@ std::string state_text(const AssessmentRecord& assessment) {
 }
 
 bool anything_open(const AssessmentRecord& assessment) {
-  const CountsRecord& counts = assessment.counts;
+  const CountsRecord& counts = assessment.verdict.counts;
   return counts.fail + counts.not_assessed + counts.not_verified > 0 ||
          assessment.sight_counts.contains(name_of(SightVerdict::undecided)) ||
          assessment.sight_counts.contains(name_of(SightVerdict::not_assessed));

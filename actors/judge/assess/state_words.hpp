@@ -12,7 +12,8 @@
 namespace luxodus {
 
 /// The sentence that every output shows first: the judged state, the rules, the verdict on all
-/// checks in words, and counts of views. Requires: the state and the counts are recorded.
+/// checks in words, and counts of views. Requires: the state and the counts of views are
+/// recorded.
 std::string first_sentence(const AssessmentRecord& assessment, const std::string& verdict);
 
 /// Name and text of a row: ("operation", "emergency, 600 s after the failure of the mains"). The

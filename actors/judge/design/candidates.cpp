@@ -29,8 +29,6 @@ constexpr double one_place = 0.5;
 constexpr double one_row_width_m = 2.5;
 /// Number of directions in which walls beside a place are searched.
 constexpr int wall_directions = 16;
-/// Largest height difference within a storey [m].
-constexpr double one_storey_m = 2;
 /// Places are rounded to a millimetre [m].
 constexpr double told_m = 1e-3;
 /// A luminaire faces down if its aim is within half a degree of it [cosine].
@@ -50,11 +48,6 @@ struct Spot {
 
 double heading_of(const glm::dvec3& way) {
   return std::atan2(way.y, way.x) * 180 / std::numbers::pi;
-}
-
-bool wanted(const DesignSettings& design, const std::string& name) {
-  return design.over.empty() ||
-         std::find(design.over.begin(), design.over.end(), name) != design.over.end();
 }
 
 void add_over_route(const EscapeRoute& route, double spacing_m, std::vector<Spot>& out) {
@@ -83,10 +76,10 @@ std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& 
     return out;
   }
   for (const EscapeRoute& route : scene.routes)
-    if (wanted(design, route.name)) add_over_route(route, design.spacing_m, out);
+    if (is_wanted(design, route.name)) add_over_route(route, design.spacing_m, out);
   for (const auto* areas : {&scene.open_areas, &scene.task_areas})
     for (const AssessedArea& area : *areas)
-      if (wanted(design, area.name))
+      if (is_wanted(design, area.name))
         for (const glm::dvec3& p : within(area, design.wall_clearance_m, design.spacing_m))
           out.push_back({p, 0, std::nullopt});
   return out;
@@ -158,7 +151,7 @@ class PlaceFinder {
       const glm::dvec3 p(spots[i].floor.x, spots[i].floor.y, heights[i]);
       const bool again = std::any_of(out.begin(), out.end(), [&](const Spot& other) {
         return glm::length(glm::dvec2(other.floor - p)) < one_place * apart() &&
-               std::abs(*other.z - p.z) < one_storey_m;
+               std::abs(*other.z - p.z) < storey_m;
       });
       if (again) continue;
       if (fates[i] == Fate::no_ceiling)
@@ -302,7 +295,7 @@ struct MovableKind {
   }
   /// Without a floor below, the heights of luminaires decide on the storey.
   bool is_on_storey(double floor, double height) const {
-    return std::abs(floor_z ? floor - *floor_z : height - emitter->frame.origin.z) < one_storey_m;
+    return std::abs(floor_z ? floor - *floor_z : height - emitter->frame.origin.z) < storey_m;
   }
 };
 
@@ -508,6 +501,11 @@ const Emitter& some_light(const DesignSettings& design) {
   return (lit == design.types.end() ? design.types.front() : *lit).emitter;
 }
 
+bool is_wanted(const DesignSettings& design, const std::string& name) {
+  return design.over.empty() ||
+         std::find(design.over.begin(), design.over.end(), name) != design.over.end();
+}
+
 Result<void> gives_any_light(const DesignSettings& design) {
   if (std::any_of(design.types.begin(), design.types.end(), gives_light)) return {};
   return problem_in(design.place,
@@ -518,7 +516,7 @@ Result<void> gives_any_light(const DesignSettings& design) {
 bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
   return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
     return glm::length(glm::dvec2(sign.frame.origin - p)) < clearance_m &&
-           std::abs(sign.frame.origin.z - p.z) < 2 * one_storey_m;
+           std::abs(sign.frame.origin.z - p.z) < 2 * storey_m;
   });
 }
 
@@ -526,8 +524,8 @@ bool kept_out(const SceneDescription& scene, const DesignSettings& design, const
   const auto floor = floor_below(scene, p);
   return std::any_of(design.keep_outs.begin(), design.keep_outs.end(), [&](const KeepOut& zone) {
     const auto its_floor = floor_below(scene, zone.position);
-    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < one_storey_m
-                                         : std::abs(zone.position.z - p.z) < 2 * one_storey_m;
+    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < storey_m
+                                         : std::abs(zone.position.z - p.z) < 2 * storey_m;
     return here && glm::length(glm::dvec2(zone.position - p)) < zone.radius_m;
   });
 }
@@ -588,7 +586,7 @@ std::optional<PlaceCheck::Place> PlaceCheck::place_over(const glm::dvec2& plan,
   if (!floor) return std::nullopt;
   const auto z = PlaceFinder(parts_->scene, parts_->design, *parts_->bare, *parts_->furnished)
                      .height_over({plan, *floor});
-  if (!z || std::abs(*z - near.z) > one_storey_m) return std::nullopt;
+  if (!z || std::abs(*z - near.z) > storey_m) return std::nullopt;
   return Place{rounded({plan, *z}), {plan, *floor}};
 }
 

@@ -89,6 +89,9 @@ Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
 /// An emitter with which a scene without light can be compiled.
 const Emitter& some_light(const DesignSettings& design);
 
+/// Whether places over the route or area of this name are candidates.
+bool is_wanted(const DesignSettings& design, const std::string& name);
+
 /// Errors: no type gives light, since the judged state switches its circuit off.
 Result<void> gives_any_light(const DesignSettings& design);
 

@@ -24,7 +24,6 @@ using namespace rule_limit;
 
 namespace {
 
-constexpr double same_storey_m = 2;
 /// Illuminance from one luminaire from which it lights a tread directly: a tenth of a route's
 /// minimum [lx].
 constexpr double lit_tread_lx = 0.1;
@@ -302,7 +301,7 @@ class Demands::Builder {
   std::vector<size_t> over(const Subject& subject, double floor_z) const {
     std::vector<size_t> out;
     for (size_t i = 0; i < candidates_.size(); ++i)
-      if (floors_[i] && std::abs(*floors_[i] - floor_z) < same_storey_m &&
+      if (floors_[i] && std::abs(*floors_[i] - floor_z) < storey_m &&
           in_plan_of(subject, glm::dvec2(candidates_[i].floor)))
         out.push_back(i);
     return out;
@@ -454,7 +453,7 @@ class Demands::Builder {
     std::vector<double> near(candidates_.size(), 0);
     for (size_t i = 0; i < candidates_.size(); ++i) {
       const glm::dvec3& p = candidates_[i].position;
-      const bool here = !floor || !floors_[i] || std::abs(*floor - *floors_[i]) < same_storey_m;
+      const bool here = !floor || !floors_[i] || std::abs(*floor - *floors_[i]) < storey_m;
       if (here && seen[i] && (!above || p.z >= place.z) &&
           glm::length(glm::dvec2(p - place)) <= limit_of(rule))
         near[i] = 1;

@@ -103,7 +103,8 @@ class Demands {
   Demands();
   void look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
                const Demands& all, BetweenPoints& out);
-  /// Light of all candidates together at a place of a row [lx].
+  /// The most light that candidates can give together at a place of a row, of the types and
+  /// mounts for one place only one [lx].
   double max_at(const glm::dvec3& place, bool furnished) const;
   bool add_off_place(const PointOffPlace& point, Terms light, const Layout& layout);
 

@@ -30,10 +30,6 @@ std::string percent(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
 
-std::string type_of(const SceneDescription& scene, const PlacedLuminaire& one) {
-  return one.is_new() ? scene.design->types[one.candidate.type].name : "";
-}
-
 Result<void> write_plans(const fs::path& folder, const AssessmentRecord& a, Language language) {
   std::error_code failed;
   fs::create_directories(folder, failed);

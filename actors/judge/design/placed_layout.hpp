@@ -20,6 +20,11 @@ struct PlacedLuminaire {
   bool is_new() const { return candidate.type != LuminaireCandidate::existing; }
 };
 
+/// The name of its type; "" of one that the scene has. `scene`: that of the design.
+inline std::string type_of(const SceneDescription& scene, const PlacedLuminaire& one) {
+  return one.is_new() ? scene.design->types[one.candidate.type].name : "";
+}
+
 struct PlacedLayout {
   /// The scene with the layout, as its variant on disk gives it; null without a layout.
   std::shared_ptr<const SceneDescription> variant;

@@ -9,10 +9,6 @@ namespace luxodus {
 
 namespace {
 
-std::string type_of(const SceneDescription& scene, const PlacedLuminaire& one) {
-  return one.is_new() ? scene.design->types[one.candidate.type].name : "";
-}
-
 PlacedLuminaireRecord placed_of(const SceneDescription& scene, const PlacedLuminaire& one) {
   return {.name = one.name,
           .type = type_of(scene, one),

@@ -28,11 +28,6 @@ constexpr double one_wall_spot = 0.5;
 
 const glm::dvec3 to_sky(0, 0, 1);
 
-bool is_wanted(const DesignSettings& design, const std::string& name) {
-  return design.over.empty() ||
-         std::find(design.over.begin(), design.over.end(), name) != design.over.end();
-}
-
 class WallSpotFinder {
  public:
   WallSpotFinder(const SceneDescription& scene, const DesignSettings& design, const Building& bare,

@@ -33,10 +33,6 @@ constexpr int min_texels = 40;
 /// A glow that lasts this long is probably given in minutes, or belongs to another sign [s].
 constexpr double glow_s = 600, max_glow_share = 0.5;
 
-double luminous(const Spectrum& s) {
-  return s.integral_with(cie_y()) / cie_y().integral();
-}
-
 void tell_of(const Sign& sign, Severity severity, const std::string& what, Findings& out) {
   out.push_back({severity, "sign light", {sign.place, "sign \"" + sign.name + "\" " + what}});
 }
@@ -146,7 +142,8 @@ void inspect_detail(const Sign& sign, Findings& out) {
 }
 
 void inspect_face(const Sign& sign, Findings& out) {
-  const double white = luminous(sign.white_reflectance), green = luminous(sign.green_reflectance);
+  const double white = luminous_mean(sign.white_reflectance),
+               green = luminous_mean(sign.green_reflectance);
   if (white <= green)
     tell_of(sign, Severity::warning,
             fmt::format(
@@ -186,8 +183,8 @@ void inspect_materials(const SceneDescription& scene, Findings& out) {
     const Material& m = scene.materials[i];
     if (!(area[i] > 0) || m.kind == MaterialKind::open) continue;
     const bool paint = m.kind == MaterialKind::lambertian || m.kind == MaterialKind::glossy;
-    const double share = paint ? luminous(m.reflectance) + luminous(m.specular)
-                         : m.kind == MaterialKind::mirror ? luminous(m.specular)
+    const double share = paint ? luminous_mean(m.reflectance) + luminous_mean(m.specular)
+                         : m.kind == MaterialKind::mirror ? luminous_mean(m.specular)
                                                           : 1;
     all += area[i];
     reflected += area[i] * share;

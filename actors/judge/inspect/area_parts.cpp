@@ -34,12 +34,8 @@ struct PartGrid {
 };
 
 PartGrid grid_over(const AssessedArea& area, double above_m) {
-  glm::dvec2 low = area.outline.front(), high = low;
-  for (const glm::dvec2& p : area.outline) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::dvec2 size = high - low;
+  const PlanBox box = plan_box_of(area);
+  const glm::dvec2 low = box.low, size = box.size();
   const double step = spacing_within(area, part_step_m, max_part_places);
   PartGrid grid;
   grid.places = within(area, part_border_m, step);

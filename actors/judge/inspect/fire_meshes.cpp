@@ -117,10 +117,10 @@ void tell_raised(const SceneDescription& scene, const Medium& m,
     if (raised++ == 0) where = fmt::format("at {} (the {})", place_text(p), of);
   };
   for (const EscapeRoute& route : scene.routes)
-    for (const glm::dvec3& p : along(route, 0, fire_places_m))
+    for (const glm::dvec3& p : places_along(route, fire_places_m))
       try_at("route \"" + route.name + "\"", p);
   for (const AssessedArea& area : scene.open_areas)
-    for (const glm::dvec3& p : within(area, 0.5, fire_places_m))
+    for (const glm::dvec3& p : places_within(area, 0.5, fire_places_m))
       try_at("open area \"" + area.name + "\"", p);
   if (raised == 0 || 2 * raised < all) return;
   out.push_back({Severity::warning,

@@ -102,35 +102,45 @@ std::string surface_text(const Site& site, uint32_t surface) {
                                : "\"" + site.building.scene().surfaces[surface].name + "\"";
 }
 
+/// The bounds of each object.
+std::vector<Bounds> boxes_of(const SceneDescription& scene) {
+  std::vector<Bounds> out;
+  for (const Object& object : scene.objects) out.push_back(bounds_of(object.mesh));
+  return out;
+}
+
 /// The longest side of the building; 0 without geometry.
-double building_length(const SceneDescription& scene) {
+double building_length(const std::vector<Bounds>& boxes) {
   Bounds all;
-  for (const Object& object : scene.objects) all.extend(bounds_of(object.mesh));
+  for (const Bounds& box : boxes) all.extend(box);
   if (all.empty()) return 0;
   const glm::dvec3 size = all.high - all.low;
   return std::max({size.x, size.y, size.z});
 }
 
 /// An object that hides light of a luminaire and may be its body, whose shadow the intensities lack
-/// already; none if there is none, or if it is said to be the body.
-const Object* unsaid_body(const Site& site, const Emitter& e, const Ends& ends) {
+/// already; none if there is none, or if it is said to be the body. `boxes`: of all objects.
+const Object* unsaid_body(const Site& site, const std::vector<Bounds>& boxes, const Emitter& e,
+                          const Ends& ends) {
   if (e.distribution != Distribution::web) return nullptr;
   const glm::dvec3 margin(at_body_m), at = e.frame.origin;
   for (const auto& [surface, share] : ends.on) {
     if (share < body_share || surface >= site.scene.objects.size()) continue;
-    const Object& object = site.scene.objects[surface];
-    const Bounds bounds = bounds_of(object.mesh);
+    const Bounds& bounds = boxes[surface];
     const glm::dvec3 size = bounds.high - bounds.low;
     const bool around = glm::all(glm::lessThanEqual(bounds.low - margin, at)) &&
                         glm::all(glm::lessThanEqual(at, bounds.high + margin));
-    if (around && std::max({size.x, size.y, size.z}) <= largest_body_m) return &object;
+    if (around && std::max({size.x, size.y, size.z}) <= largest_body_m)
+      return &site.scene.objects[surface];
   }
   return nullptr;
 }
 
-/// What is wrong with one emitter's place; sets `stands_outside` if it is outside.
+/// What is wrong with one emitter's place; sets `stands_outside` if it is outside. `boxes`: of all
+/// objects.
 std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& access,
-                                     uint32_t emitter, double building_m, char& stands_outside) {
+                                     const std::vector<Bounds>& boxes, uint32_t emitter,
+                                     double building_m, char& stands_outside) {
   const Emitter& e = site.scene.emitters[emitter];
   const glm::dvec3 middle = middle_of(e);
   const double large_m = std::max({e.size.x, e.size.y, e.size.z});
@@ -162,7 +172,7 @@ std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& acc
                                          "move it out",
                                          emitter_text(e), surface_text(site, ends.surface),
                                          percent_text(ends.back))}};
-  if (const Object* body = unsaid_body(site, e, ends))
+  if (const Object* body = unsaid_body(site, boxes, e, ends))
     return Finding{
         Severity::warning,
         "body",
@@ -390,9 +400,10 @@ void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outs
   const size_t count = site.scene.emitters.size();
   std::vector<std::optional<Finding>> found(count);
   outside.assign(count, 0);
-  const double building_m = building_length(site.scene);
+  const std::vector<Bounds> boxes = boxes_of(site.scene);
+  const double building_m = building_length(boxes);
   site.building.each(count, [&](const GeometryAccess& access, size_t i) {
-    found[i] = wrong_emitter(site, access, static_cast<uint32_t>(i), building_m, outside[i]);
+    found[i] = wrong_emitter(site, access, boxes, static_cast<uint32_t>(i), building_m, outside[i]);
   });
   for (auto& finding : found)
     if (finding) out.push_back(std::move(*finding));

@@ -35,11 +35,6 @@ constexpr double passes_near_m = 6;
 constexpr double leads_on_m = 2;
 constexpr double against = -0.7;
 
-Finding sign_finding(Severity severity, const char* kind, const Sign& sign,
-                     const std::string& what) {
-  return {severity, kind, {sign.place, "sign \"" + sign.name + "\" " + what}};
-}
-
 std::optional<Finding> turned_wrong(const Sign& sign) {
   const glm::dvec3 &up = sign.frame.axes[1], &normal = sign.frame.axes[2];
   if (std::abs(normal.z) > steep)

@@ -97,10 +97,6 @@ std::string behind_text(const Site& site, uint32_t surface) {
   return surface < site.scene.objects.size() ? ": " + object_text(site.scene.objects[surface]) : "";
 }
 
-Finding of_sign(Severity severity, const char* kind, const Sign& sign, const std::string& what) {
-  return {severity, kind, {sign.place, "sign \"" + sign.name + "\" " + what}};
-}
-
 std::optional<Finding> wrong_sign(const Site& site, const GeometryAccess& access,
                                   const Sign& sign) {
   if (auto far = site.remote.told("sign \"" + sign.name + "\"", sign.frame.origin))
@@ -109,23 +105,23 @@ std::optional<Finding> wrong_sign(const Site& site, const GeometryAccess& access
   const Before ahead = before(site, access, sign, front);
   const bool in_body = site.in_body(access, front.centre + front.normal * 1e-3);
   if (ahead.near > 0.5 || in_body)
-    return of_sign(
+    return sign_finding(
         Severity::error, "inside", sign,
         "lies in a wall or body" + behind_text(site, ahead.surface) +
             ": nobody sees its face; move it out, at least its thickness before the wall");
   if (ahead.close > 0.5)
-    return of_sign(Severity::warning, "blind", sign,
-                   "faces a wall less than 0.3 m before it" + behind_text(site, ahead.surface) +
-                       ": turn it round, or move it");
+    return sign_finding(Severity::warning, "blind", sign,
+                        "faces a wall less than 0.3 m before it" +
+                            behind_text(site, ahead.surface) + ": turn it round, or move it");
   if (sign.double_sided) {
     const Before behind = before(site, access, sign, face_of(sign, true));
     if (behind.close > 0.5 || lies_on_wall(site, access, sign))
-      return of_sign(Severity::warning, "blind", sign,
-                     "is double-sided and its back face looks at a wall less than 0.3 m away" +
-                         behind_text(site, behind.surface) + ": say double_sided = false");
+      return sign_finding(Severity::warning, "blind", sign,
+                          "is double-sided and its back face looks at a wall less than 0.3 m away" +
+                              behind_text(site, behind.surface) + ": say double_sided = false");
   }
   if (site.is_outside(access, front.centre + front.normal * 1e-2))
-    return of_sign(Severity::note, "outside", sign, "hangs outside the building");
+    return sign_finding(Severity::note, "outside", sign, "hangs outside the building");
   return std::nullopt;
 }
 
@@ -139,10 +135,10 @@ void find_double_signs(const SceneDescription& scene, Findings& out) {
   for (size_t i = 0; i < signs.size(); ++i) {
     if (!firsts[i]) continue;
     const Sign& first = signs[*firsts[i]];
-    out.push_back(
-        of_sign(Severity::warning, "same place", signs[i],
-                fmt::format("hangs where sign \"{}\" (line {}) does, at {}: remove one of them",
-                            first.name, first.place.line, place_text(signs[i].frame.origin))));
+    out.push_back(sign_finding(
+        Severity::warning, "same place", signs[i],
+        fmt::format("hangs where sign \"{}\" (line {}) does, at {}: remove one of them", first.name,
+                    first.place.line, place_text(signs[i].frame.origin))));
   }
 }
 

@@ -44,6 +44,15 @@ std::string object_text(const Object& object) {
                      place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "");
 }
 
+double luminous_mean(const Spectrum& spectrum) {
+  return spectrum.integral_with(cie_y()) / cie_y().integral();
+}
+
+Finding sign_finding(Severity severity, const char* kind, const Sign& sign,
+                     const std::string& what) {
+  return {severity, kind, {sign.place, "sign \"" + sign.name + "\" " + what}};
+}
+
 bool no_buildings_size(const glm::dvec3& size) {
   const double largest = std::max({size.x, size.y, size.z});
   return largest < min_size_m || largest > max_size_m;

@@ -26,6 +26,13 @@ std::string percent_text(double share);
 /// "wall" (scene.toml:12)
 std::string object_text(const Object& object);
 
+/// Mean of a spectrum weighted by V(lambda), in equal-energy light.
+double luminous_mean(const Spectrum& spectrum);
+
+/// A finding of a sign: 'sign "exit" ' and what is wrong with it.
+Finding sign_finding(Severity severity, const char* kind, const Sign& sign,
+                     const std::string& what);
+
 /// Whether it is smaller than a button, or larger than any site: metres for millimetres, or the
 /// reverse.
 bool no_buildings_size(const glm::dvec3& size);

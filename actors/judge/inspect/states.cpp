@@ -178,7 +178,7 @@ void tell_dimmed_flames(const SceneDescription& scene, const Scenario& s, Findin
   });
   for (const Medium& m : scene.media) {
     if (!smoky || !m.emission || !(factor_of_medium(s, m) > 0)) continue;
-    const double share = s.emission_factor * factor_of(s.circuits, m.emission->circuit, 1);
+    const double share = flame_share(s, m);
     if (share >= 1) continue;
     return tell_state(s, Severity::warning,
                       fmt::format("leaves {:g} of the light of the flames \"{}\" in smoke: their "

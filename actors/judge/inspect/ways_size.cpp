@@ -9,15 +9,6 @@ namespace luxodus {
 
 namespace {
 
-glm::dvec2 size_of(const AssessedArea& area) {
-  glm::dvec2 low = area.outline.front(), high = low;
-  for (const glm::dvec2& p : area.outline) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  return high - low;
-}
-
 /// Memory of a point of calculation [bytes]: its place, and the light of each luminaire.
 double bytes_of_point(const SceneDescription& scene) {
   return sizeof(LitPoint) +
@@ -58,7 +49,7 @@ std::vector<glm::dvec3> places_within(const EscapeRoute& route, double half_widt
 }
 
 double spacing_within(const AssessedArea& area, double spacing_m, size_t most) {
-  const glm::dvec2 size = size_of(area);
+  const glm::dvec2 size = plan_box_of(area).size();
   const auto count = static_cast<double>(most);
   return std::max({spacing_m, std::sqrt(size.x * size.y / count), size.x / count, size.y / count});
 }
@@ -77,7 +68,7 @@ void inspect_way_sizes(const SceneDescription& scene, Findings& out) {
     tell_size("route \"" + route.name + "\"", route.place, length_text(length_of(route)) + " long",
               points_of_route(route), scene, out);
   const auto tell_area = [&](const char* word, const AssessedArea& area) {
-    const glm::dvec2 size = size_of(area);
+    const glm::dvec2 size = plan_box_of(area).size();
     tell_size(fmt::format("{} \"{}\"", word, area.name), area.place,
               length_text(size.x) + " by " + length_text(size.y),
               (size.x / area_grid_m + 1) * (size.y / area_grid_m + 1), scene, out);

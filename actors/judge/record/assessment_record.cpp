@@ -172,9 +172,23 @@ bool is_listed(const std::vector<RulesRecord>& rules, const std::string& id) {
                                    [&](const RulesRecord& one) { return one.id == id; });
 }
 
+/// Counts that a table of the file states are those of its checks.
+Result<void> check_counts(const char* table, const CountsRecord& said,
+                          const CountsRecord& counted) {
+  const std::pair<const char*, size_t CountsRecord::*> keys[] = {
+      {"fail", &CountsRecord::fail},
+      {"not_assessed", &CountsRecord::not_assessed},
+      {"not_verified", &CountsRecord::not_verified},
+      {"pass", &CountsRecord::pass}};
+  for (const auto& [key, count] : keys)
+    if (said.*count != counted.*count)
+      return problem(fmt::format("{}.{} is not the number of its checks", table, key));
+  return {};
+}
+
 /// Every check is by a rule set that the judged state names, and counts are those of the checks.
-/// Otherwise the verdict would be of something else.
-Result<void> check_checks(const AssessmentRecord& a) {
+/// Otherwise the verdict would be of something else. `table`: "counts" of the file.
+Result<void> check_checks(const AssessmentRecord& a, const Json& table) {
   CheckCounts counts{};
   const auto stray = [](size_t check, const std::string& id, const char* list) {
     return problem(
@@ -188,17 +202,10 @@ Result<void> check_checks(const AssessmentRecord& a) {
       return stray(i, rule.deviation, "deviations");
   }
   const CountsRecord counted = CountsRecord::of(counts);
-  const std::pair<const char*, size_t CountsRecord::*> keys[] = {
-      {"fail", &CountsRecord::fail},
-      {"not_assessed", &CountsRecord::not_assessed},
-      {"not_verified", &CountsRecord::not_verified},
-      {"pass", &CountsRecord::pass}};
-  for (const auto& [table, said] :
-       {std::pair("counts", a.counts), std::pair("verdict", a.verdict.counts)})
-    for (const auto& [key, count] : keys)
-      if (said.*count != counted.*count)
-        return problem(fmt::format("{}.{} is not the number of its checks", table, key));
-  return {};
+  CountsRecord said;
+  if (auto ok = read_fields(table, said); !ok) return ok;
+  if (auto ok = check_counts("counts", said, counted); !ok) return ok;
+  return check_counts("verdict", a.verdict.counts, counted);
 }
 
 }  // namespace
@@ -250,7 +257,7 @@ Result<AssessmentRecord> assessment_of(const Json& json) {
   if (auto ok = check_pictures(out); !ok) return ok.problem();
   if (out.over_time)
     if (auto ok = complete(*out.over_time); !ok) return ok.problem();
-  if (auto ok = check_checks(out); !ok) return ok.problem();
+  if (auto ok = check_checks(out, json.at("counts")); !ok) return ok.problem();
   return out;
 }
 

@@ -40,7 +40,8 @@ struct LitRecord {
   }
 };
 
-/// Range of the extinction of all smoke, without flames [1/m].
+/// Range of the extinction of all smoke, without flames [1/m]; its `max` is 0 where the smoke lies
+/// outside the building or the heights at which people look.
 struct ExtinctionRecord {
   double min = 0, max = 0;
   double wavelength_nm = 0;
@@ -330,7 +331,6 @@ struct AssessmentRecord {
   std::vector<NotAssessedRecord> not_assessed;  // the most frequent first
   PeopleRecord people;
   MethodRecord method;
-  CountsRecord counts;
   std::map<std::string, size_t> sight_counts;  // by the name of a verdict
   std::vector<CheckRecord> checks;
   std::vector<SightRecord> sights;
@@ -350,7 +350,8 @@ struct AssessmentRecord {
     field("format", derived([] { return std::string(assessment_format); }));
     field("version", m.version)("scene", m.scene)("state", m.state)("verdict", m.verdict);
     field("not_assessed", m.not_assessed)("people", m.people)("method", m.method);
-    field("counts", m.counts)("sight_counts", m.sight_counts)("checks", m.checks);
+    field("counts", derived([&m] { return m.verdict.counts; }));
+    field("sight_counts", m.sight_counts)("checks", m.checks);
     field("sights", m.sights)("sweep", m.sweep)("over_time", m.over_time)("warnings", m.warnings);
     field("project", m.project)("scenario", m.scenario)("luminaires", m.luminaires);
     field("signs", m.signs)("places", m.places)("materials", m.materials)("media", m.media);

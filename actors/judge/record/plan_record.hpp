@@ -20,7 +20,8 @@ inline constexpr size_t record_map = 1'000'000;
 /// Both ends of a line.
 using DrawnLine = std::pair<glm::dvec2, glm::dvec2>;
 
-/// A point of calculation on a plan, with all emergency luminaires lit [lx].
+/// A point of calculation on a plan, lit by the emergency luminaires whose circuits are on and
+/// whose supply lasts at the judged time [lx].
 struct PlanPoint {
   glm::dvec3 place{0};
   double lux = 0;
@@ -33,7 +34,7 @@ struct DrawnLux {
 };
 DrawnLux drawn_lux(double lux);
 
-/// Direct light of all emergency luminaires on a grid over a floor, without furniture.
+/// Direct light of the same luminaires on a grid over a floor, without furniture.
 struct LightMap {
   glm::dvec2 corner{0};  // of the first grid point
   double spacing_m = 0;

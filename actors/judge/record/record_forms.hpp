@@ -12,11 +12,11 @@ namespace luxodus {
 template <>
 inline constexpr size_t names_of<Operation> = operation_words.size();
 template <>
-inline constexpr size_t names_of<CheckVerdict> = std::tuple_size_v<CheckCounts>;
+inline constexpr size_t names_of<CheckVerdict> = check_verdicts;
 template <>
-inline constexpr size_t names_of<SightVerdict> = 6;
+inline constexpr size_t names_of<SightVerdict> = sight_verdicts;
 template <>
-inline constexpr size_t names_of<GuidedWalk::End> = 3;
+inline constexpr size_t names_of<GuidedWalk::End> = GuidedWalk::ends;
 template <>
 struct JsonForm<Remark> {
   static Json write(const Remark& remark, const FieldForm&) { return remark_json(remark); }

@@ -126,7 +126,7 @@ std::string state_line(const PageParts& parts) {
 
 std::string verdict_box(const PageParts& parts) {
   const Texts& t = parts.texts;
-  const CountsRecord& counts = parts.a.counts;
+  const CountsRecord& counts = parts.a.verdict.counts;
   const CheckVerdict mark = counts.fail > 0           ? CheckVerdict::fail
                             : counts.not_verified > 0 ? CheckVerdict::not_verified
                             : counts.not_assessed > 0 ? CheckVerdict::not_assessed

@@ -18,6 +18,7 @@ std::string judged_text(const Texts& t, const StateRecord& state) {
   if (state.seconds_after_failure)
     out += t.say("headline.seconds", t.number(*state.seconds_after_failure, 6));
   if (!state.smoke) return out + t("headline.clear");
+  if (state.smoke->extinction.max == 0) return out + t("headline.smoke_elsewhere");
   return out + t.say("headline.smoke", range_text(t, state.smoke->extinction));
 }
 
@@ -42,7 +43,7 @@ std::string headline(const Texts& t, const AssessmentRecord& a) {
   for (const RulesRecord& rule : a.state.rules)
     rules += (rules.empty() ? "" : t("headline.and")) + rule.edition;
   std::string out =
-      t.say("headline.by", judged_text(t, a.state), rules, verdict_words(t, a.counts));
+      t.say("headline.by", judged_text(t, a.state), rules, verdict_words(t, a.verdict.counts));
   size_t all = 0, legible = 0;
   for (const auto& [verdict, times] : a.sight_counts) {
     all += times;

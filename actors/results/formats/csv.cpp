@@ -104,13 +104,18 @@ Result<void> write_csv(const std::filesystem::path& path, const CsvTable& table)
 }
 
 Result<void> write_or_remove(const std::filesystem::path& path,
-                             const std::optional<CsvTable>& table) {
-  if (table) return write_csv(path, *table);
+                             const std::optional<std::string>& bytes) {
+  if (bytes) return write_file_atomically(path, std::string_view(*bytes));
   std::error_code failed;
   std::filesystem::remove(path, failed);
   if (failed)
     return system_problem(path, "cannot remove what an earlier run has left", failed.value());
   return {};
+}
+
+Result<void> write_or_remove(const std::filesystem::path& path,
+                             const std::optional<CsvTable>& table) {
+  return write_or_remove(path, table ? std::optional(table->text()) : std::nullopt);
 }
 
 }  // namespace luxodus

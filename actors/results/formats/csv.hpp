@@ -64,9 +64,11 @@ class CsvTable {
 /// Errors: as write_file_atomically.
 Result<void> write_csv(const std::filesystem::path& path, const CsvTable& table);
 
-/// Writes a table that not every run has. Without one, the earlier run's table is removed, which
+/// Writes a file that not every run has. Without content, the earlier run's file is removed, which
 /// would be taken for this run's.
 /// Errors: as write_file_atomically; a file that cannot be removed.
+Result<void> write_or_remove(const std::filesystem::path& path,
+                             const std::optional<std::string>& bytes);
 Result<void> write_or_remove(const std::filesystem::path& path,
                              const std::optional<CsvTable>& table);
 

@@ -116,12 +116,19 @@ void Drivers::add_control(GroupKeys& keys) {
   controls_[keys.text("ID")] = one;
 }
 
-void Drivers::add_ramp(GroupKeys& keys) {
+std::optional<std::string> Drivers::add_ramp(GroupKeys& keys) {
   // Only ramps of the clock are evaluated, and those have both numbers.
-  Ramp& ramp = ramps_[keys.text("ID")];
-  ramp.emplace_back(keys.number("T", 0), keys.number("F", 0));
-  if (ramp.size() > limits::turns)
-    keys.fail("ID", fmt::format("a ramp has more than {} points", limits::turns));
+  const std::string id = keys.text("ID");
+  Ramp& ramp = ramps_[id];
+  if (ramp.is_too_long) return std::nullopt;
+  ramp.points.emplace_back(keys.number("T", 0), keys.number("F", 0));
+  if (ramp.points.size() <= limits::turns) return std::nullopt;
+  ramp.is_too_long = true;
+  ramp.points.clear();
+  return fmt::format(
+      "line {}: the ramp \"{}\" has more than {} points and is not read: what it drives stays as "
+      "at the start",
+      keys.line(), excerpt(id), limits::turns);
 }
 
 FdsCourse Drivers::course_of(const Device& device, const std::string& id) const {
@@ -162,9 +169,10 @@ FdsCourse Drivers::course_of(const Control& control, const std::string& id) {
     const auto device =
         control.inputs.empty() ? devices_.end() : devices_.find(control.inputs.front());
     const auto ramp = ramps_.find(control.ramp);
-    if (device == devices_.end() || !device->second.is_clock || ramp == ramps_.end())
+    if (device == devices_.end() || !device->second.is_clock || ramp == ramps_.end() ||
+        ramp->second.is_too_long)
       return driven(false, id, control.at_start);
-    return state_of(above_zero(ramp->second), control.at_start, control.latches);
+    return state_of(above_zero(ramp->second.points), control.at_start, control.latches);
   }
   std::vector<FdsCourse> inputs;
   if (auto instead = courses_of_inputs(control, id, inputs)) return *instead;

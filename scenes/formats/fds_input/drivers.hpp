@@ -16,7 +16,7 @@
 namespace luxodus::fds_input {
 
 namespace limits {
-/// Changes of a state over time, and controls that read each other.
+/// Changes of a state over time and points of a ramp; controls that read each other.
 inline constexpr size_t turns = 10'000;
 inline constexpr int depth = 100;
 }  // namespace limits
@@ -25,8 +25,9 @@ class Drivers {
  public:
   void add_device(GroupKeys& keys);
   void add_control(GroupKeys& keys);
-  /// One point of a ramp.
-  void add_ramp(GroupKeys& keys);
+  /// One point of a ramp. Returns a note if the ramp has become longer than limits::turns: it is
+  /// not read then, and a control that it drives counts as driven by the fire.
+  std::optional<std::string> add_ramp(GroupKeys& keys);
 
   /// The course of a device or a control; nothing where there is none with this ID. Requires: all
   /// groups are added.
@@ -46,7 +47,10 @@ class Drivers {
     int count = 1;  // N of AT_LEAST and ONLY
     bool latches = true, at_start = false;
   };
-  using Ramp = std::vector<std::pair<double, double>>;
+  struct Ramp {
+    std::vector<std::pair<double, double>> points;  // times [s] and values
+    bool is_too_long = false;
+  };
 
   FdsCourse course_of(const Device& device, const std::string& id) const;
   FdsCourse course_of(const Control& control, const std::string& id);

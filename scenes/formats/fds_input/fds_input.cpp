@@ -49,7 +49,9 @@ class InputReader {
     out_.surfaces.push_back({.name = "INERT"});
     each("SURF", [&](GroupKeys& keys) { surface(keys); });
     default_surface();
-    each("RAMP", [&](GroupKeys& keys) { drivers_.add_ramp(keys); });
+    each("RAMP", [&](GroupKeys& keys) {
+      if (auto note = drivers_.add_ramp(keys)) out_.notes.push_back(std::move(*note));
+    });
     each("DEVC", [&](GroupKeys& keys) { drivers_.add_device(keys); });
     each("CTRL", [&](GroupKeys& keys) { drivers_.add_control(keys); });
     each("MESH", [&](GroupKeys& keys) { mesh(keys); });
@@ -296,7 +298,7 @@ class InputReader {
   /// Reads openings only: other surface patches have no geometry.
   void vent(GroupKeys& keys) {
     const std::string surface = keys.text("SURF_ID");
-    if ((surface == "MIRROR" || surface == "PERIODIC") && symmetric_faces_++ == 0)
+    if (fds::is_symmetric(surface) && symmetric_faces_++ == 0)
       first_symmetric_ = fmt::format("line {}: {}", keys.line(), surface);
     if (surface != "OPEN" || keys.flag("GEOM", false)) return;
     FdsOpening one;

@@ -86,9 +86,10 @@ class FireReader {
           fmt::format("flames are asked for, and the case has no HRRPUV (Smoke3D, 3-D "
                       "slice or PLOT3D) of all meshes at {:.6g} s",
                       smoke_.time_s));
-    auto power = heat_release_kw(fire_, smoke_.time_s);
+    auto power = heat_release(fire_, smoke_.time_s);
     if (!power) return power.problem();
-    out_.heat_release_kw = std::max(0.0, power.value());
+    out_.heat_release_kw = std::max(0.0, power->kw);
+    heat_back_ = power->back;
     return {};
   }
 
@@ -175,16 +176,22 @@ class FireReader {
     return out;
   }
 
-  /// Names the first file in which times go back.
+  /// Names the first file in which times go back: of smoke, of HRRPUV, the table of heat.
   void note_back_steps() {
     size_t files = 0;
     std::string first;
-    for (const Series& series : smoke_.series)
-      for (const FrameFiles& of_mesh : series.meshes)
-        if (of_mesh.back && files++ == 0)
-          first = fmt::format("times in {} go back from {:.6g} to {:.6g} s",
-                              of_mesh.files.front().filename().string(), of_mesh.back->from_s,
-                              of_mesh.back->to_s);
+    const auto take = [&](const std::filesystem::path& file, const std::optional<BackStep>& back) {
+      if (back && files++ == 0)
+        first = fmt::format("times in {} go back from {:.6g} to {:.6g} s", file.filename().string(),
+                            back->from_s, back->to_s);
+    };
+    const auto take_all = [&](const std::vector<Series>& list) {
+      for (const Series& series : list)
+        for (const FrameFiles& of_mesh : series.meshes) take(of_mesh.files.front(), of_mesh.back);
+    };
+    take_all(smoke_.series);
+    if (heat_ && options_.flames) take_all(heat_->series);
+    if (heat_back_) take(*fire_.heat_release_file, heat_back_);
     if (files == 0) return;
     if (files > 1) first += fmt::format(", likewise in {} other files", files - 1);
     out_.notes.push_back(first +
@@ -196,7 +203,7 @@ class FireReader {
   Result<std::vector<float>> smoke_nodes(const Mesh& mesh, const FrameFiles& files,
                                          const Frame& frame, const std::vector<uint8_t>& bytes) {
     if (files.format == SmokeFormat::opacity) return extinction_of_opacities(mesh, bytes);
-    // Whatever bytes say of so little, it is nothing.
+    // So low a density dims nothing, whatever its bytes are.
     if (frame.highest < negligible_kg_m3) return values_of_shares(bytes, 0);
     const uint8_t most = bytes.empty() ? 0 : *std::max_element(bytes.begin(), bytes.end());
     if (most != highest_share)
@@ -406,6 +413,7 @@ class FireReader {
   const FireOptions& options_;
   Picked smoke_;
   std::optional<Picked> heat_;
+  std::optional<BackStep> heat_back_;  // in the table of heat
   std::vector<Grid> plan_;
   std::vector<size_t> grid_of_;  // by mesh
   GasMasks gas_;

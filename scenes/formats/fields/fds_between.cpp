@@ -79,9 +79,9 @@ namespace {
 
 /// Heat is known at more times than there are frames.
 Result<void> take_heat_at(const fds::Case& fire, double at_s, LoadedFire& out) {
-  const auto power = fds::heat_release_kw(fire, at_s);
+  const auto power = fds::heat_release(fire, at_s);
   if (!power) return power.problem();
-  const double now_kw = std::max(0.0, power.value());
+  const double now_kw = std::max(0.0, power->kw);
   for (FireGrid& grid : out.grids)
     if (out.heat_release_kw > 0) grid.heat_kw *= now_kw / out.heat_release_kw;
   out.heat_release_kw = now_kw;

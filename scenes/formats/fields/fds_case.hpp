@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -80,6 +81,11 @@ struct Mesh {
     return static_cast<size_t>(n.x) * static_cast<size_t>(n.y) * static_cast<size_t>(n.z);
   }
 };
+
+/// Whether faces of this SURF_ID are planes behind which the building goes on.
+constexpr bool is_symmetric(std::string_view surface) {
+  return surface == "MIRROR" || surface == "PERIODIC" || surface == "PERIODIC FLOW ONLY";
+}
 
 /// A release of FDS, "6.11".
 struct Release {

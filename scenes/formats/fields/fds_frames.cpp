@@ -45,8 +45,8 @@ class RecordWalk {
   bool has(uint64_t payload) const { return left() >= payload + 2 * mark_bytes; }
 
   Problem damage(const std::string& what) const {
-    return problem_in(path_.string(), fmt::format("{}, at byte {}: the file is damaged, or none of "
-                                                  "this kind",
+    return problem_in(path_.string(), fmt::format("{}, at byte {}: the file is damaged, or of "
+                                                  "another kind",
                                                   what, at_));
   }
 
@@ -162,8 +162,7 @@ Result<SmokeFormat> format_of(const RecordWalk& walk, int32_t word) {
   return problem_in(
       walk.path().string(),
       fmt::format("this is Smoke3D of format {}, and what its bytes mean is known of 0 and 1 only: "
-                  "take slices (&SLCF ... CELL_CENTERED=T), or let FDS write it with "
-                  "SMOKE3D_VERSION=1",
+                  "take slices (&SLCF ... CELL_CENTERED=T)",
                   word));
 }
 
@@ -190,6 +189,12 @@ bool lies_within(const Case& fire, const fs::path& path) {
   const fs::path outer = fs::weakly_canonical(fire.folder.empty() ? "." : fire.folder, error);
   if (error) return false;
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+Result<std::string> read_text_within(const Case& fire, const fs::path& path, uint64_t max_bytes) {
+  if (!lies_within(fire, path))
+    return problem_in(path.string(), "this file is not in the folder of its index");
+  return read_regular_file(path, max_bytes);
 }
 
 Result<FrameFiles> open_slice(const Case& fire, const Slice& slice) {

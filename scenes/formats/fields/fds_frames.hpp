@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/core/regular_file.hpp"
@@ -68,6 +69,10 @@ Result<FrameFiles> open_plot3d(const Case& fire, const Plot3d& plot, size_t quan
 
 /// Whether `path`, and all targets of links on its way, lie within the folder of the case.
 bool lies_within(const Case& fire, const std::filesystem::path& path);
+
+/// The text of a file. Errors: as read_regular_file; it lies outside the folder of the case.
+Result<std::string> read_text_within(const Case& fire, const std::filesystem::path& path,
+                                     uint64_t max_bytes);
 
 /// Values of a frame of a slice or a PLOT3D file, x fastest, as stored.
 Result<std::vector<float>> read_values(const FrameFiles& files, const Frame& frame);

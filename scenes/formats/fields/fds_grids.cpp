@@ -150,8 +150,9 @@ Result<Grid> grid_of(const Case& fire, const Mesh& mesh, int parts) {
     grid.nested = grid.nested && along.nested;
     if (along.count == 0)
       return problem_in(fire.file, mesh.line,
-                        fmt::format("this mesh is stretched along {} by more than {} halves of its "
-                                    "smallest cells: even cells would be too many",
+                        fmt::format("this mesh is stretched along {}: in even cells of about its "
+                                    "smallest cell it would have more than {} there, which is the "
+                                    "most that is read; stretch it less",
                                     "xyz"[axis], luxodus::limits::max_grid_side));
   }
   grid.spacing = (mesh.high() - mesh.low()) / glm::dvec3(grid.cells);
@@ -180,8 +181,10 @@ Result<std::vector<Grid>> plan_grids(const Case& fire) {
     if (!grid) return grid.problem();
     if (grid->cell_count() > static_cast<uint64_t>(luxodus::limits::max_grid_cells))
       return problem_in(fire.file, mesh.line,
-                        fmt::format("this mesh would have {} even cells: it is stretched too much",
-                                    grid->cell_count()));
+                        fmt::format("this mesh is stretched: in even cells of about its smallest "
+                                    "cell it would have {}, and at most {} are read; stretch it "
+                                    "less",
+                                    grid->cell_count(), luxodus::limits::max_grid_cells));
     grid->meshes = {i};
     grids.push_back(std::move(grid.value()));
     cells_of_meshes.push_back(mesh.cell_count());

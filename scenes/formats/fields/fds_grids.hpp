@@ -30,8 +30,9 @@ struct Grid {
 };
 
 /// Grids for all meshes of a case, in the order of their first meshes.
-/// Errors: cells that exceed this machine's memory; a stretched mesh that would need too many
-/// halves of its smallest cell along an axis.
+/// Errors: cells that exceed this machine's memory; a stretched mesh that, in even cells of about
+/// its smallest one, would have more than limits::max_grid_side along an axis or
+/// limits::max_grid_cells.
 Result<std::vector<Grid>> plan_grids(const Case& fire);
 
 /// Clears cells that an earlier mesh covers: where meshes overlap, FDS uses the first. Returns how

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "runtime/core/regular_file.hpp"
 #include "scenes/formats/fields/data_set_fields.hpp"
-#include "scenes/formats/fields/fds_frames.hpp"
 
 namespace luxodus::fds {
 
@@ -46,6 +44,7 @@ struct HeatLine {
 
 struct HeatTable {
   std::vector<HeatLine> lines;
+  std::optional<BackStep> back;
 };
 
 /// The first line has units, the second the names of the columns.
@@ -78,7 +77,9 @@ Result<HeatTable> heat_table(const std::string& file, std::string_view text) {
     if (!time || !heat || !std::isfinite(*time) || !std::isfinite(*heat))
       return problem_in(file, number, "the time or the heat release is no number");
     // A restarted run appends its lines behind those of the part that was abandoned.
-    while (!out.lines.empty() && *time < out.lines.back().time_s) out.lines.pop_back();
+    if (!out.back && !out.lines.empty() && *time <= out.lines.back().time_s)
+      out.back = BackStep{out.lines.back().time_s, *time};
+    while (!out.lines.empty() && *time <= out.lines.back().time_s) out.lines.pop_back();
     out.lines.push_back({*time, *heat});
   }
   return out;
@@ -86,13 +87,11 @@ Result<HeatTable> heat_table(const std::string& file, std::string_view text) {
 
 }  // namespace
 
-Result<double> heat_release_kw(const Case& fire, double time_s) {
+Result<HeatRelease> heat_release(const Case& fire, double time_s) {
   if (!fire.heat_release_file)
     return problem_in(fire.file, "the index names no _hrr.csv: the power of flames is not known");
   const std::string file = fire.heat_release_file->string();
-  if (!lies_within(fire, *fire.heat_release_file))
-    return problem_in(file, "this file is not in the folder of its index");
-  const auto text = read_regular_file(*fire.heat_release_file, limits::heat_release_bytes);
+  const auto text = read_text_within(fire, *fire.heat_release_file, limits::heat_release_bytes);
   if (!text) return text.problem();
   const auto table = heat_table(file, text.value());
   if (!table) return table.problem();
@@ -101,14 +100,14 @@ Result<double> heat_release_kw(const Case& fire, double time_s) {
                                  [&](const HeatLine& l) { return l.time_s >= time_s; });
   if (next == lines.end()) {
     if (!lines.empty() && time_s <= lines.back().time_s + heat_window_s)
-      return lines.back().heat_kw;
+      return HeatRelease{lines.back().heat_kw, table->back};
     return problem_in(file, fmt::format("it ends at {:g} s, and {:g} s are asked for",
                                         lines.empty() ? 0 : lines.back().time_s, time_s));
   }
-  if (next == lines.begin() || !(next->time_s > (next - 1)->time_s)) return next->heat_kw;
+  if (next == lines.begin()) return HeatRelease{next->heat_kw, table->back};
   const HeatLine& before = *(next - 1);
   const double share = (time_s - before.time_s) / (next->time_s - before.time_s);
-  return before.heat_kw + share * (next->heat_kw - before.heat_kw);
+  return HeatRelease{before.heat_kw + share * (next->heat_kw - before.heat_kw), table->back};
 }
 
 }  // namespace luxodus::fds

@@ -2,8 +2,11 @@
 // any thread.
 #pragma once
 
+#include <optional>
+
 #include "runtime/core/result.hpp"
 #include "scenes/formats/fields/fds_case.hpp"
+#include "scenes/formats/fields/fds_frames.hpp"
 
 namespace luxodus::fds {
 
@@ -12,10 +15,15 @@ namespace limits {
 inline constexpr uint64_t heat_release_bytes = uint64_t{256} << 20;
 }  // namespace limits
 
+struct HeatRelease {
+  double kw = 0;
+  std::optional<BackStep> back;  // the first in the table
+};
+
 /// Heat release rate of the whole fire at a time [kW], linear between the lines of the table. Where
-/// times go back, as after a restart, later lines hold.
+/// times go back or repeat, as after a restart, later lines hold.
 /// Errors, with file and line: no such file, no columns Time and HRR, malformed numbers, a time
 /// more than a second after the last line.
-Result<double> heat_release_kw(const Case& fire, double time_s);
+Result<HeatRelease> heat_release(const Case& fire, double time_s);
 
 }  // namespace luxodus::fds

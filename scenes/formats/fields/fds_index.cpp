@@ -223,10 +223,14 @@ class IndexReader {
     return failed() ? nullptr : &out_.meshes.back();
   }
 
-  /// A number from 0 to 1, if there is one.
-  static std::optional<double> share(const std::vector<std::string_view>& words, size_t place) {
-    const auto value = place < words.size() ? number_in<double>(words[place]) : std::nullopt;
-    return value && *value >= 0 && *value <= 1 ? value : std::nullopt;
+  /// A number from 0 to 1; none where the line ends before it.
+  std::optional<double> share(const std::vector<std::string_view>& words, size_t place,
+                              const char* what) {
+    if (place >= words.size()) return std::nullopt;
+    const auto value = number<double>(words, place, what);
+    if (!failed() && !(value >= 0 && value <= 1))
+      fail(fmt::format("{} is not from 0 to 1: \"{}\"", what, excerpt(words[place])));
+    return value;
   }
 
   // ---- keywords
@@ -263,8 +267,9 @@ class IndexReader {
     next_line();
     const auto words = words_of(next_line());
     for (int i = 0; i < 3; ++i)
-      surface.rgb[i] = share(words, 3 + static_cast<size_t>(i)).value_or(surface.rgb[i]);
-    surface.opacity = share(words, 6).value_or(1);
+      surface.rgb[i] = share(words, 3 + static_cast<size_t>(i), "the colour of a surface")
+                           .value_or(surface.rgb[i]);
+    surface.opacity = share(words, 6, "the opacity of a surface").value_or(1);
     if (!failed()) out_.surfaces.push_back(std::move(surface));
   }
 
@@ -329,7 +334,8 @@ class IndexReader {
     const size_t n = count(words_of(next_line()), 0);
     for (size_t i = 0; i < n && !failed(); ++i) mesh->labels.push_back(label_of(next_line()));
     for (size_t i = 0; i < n && !failed(); ++i) {
-      const auto words = words_of(next_line());
+      const std::string_view line = next_line();
+      const auto words = words_of(line.substr(0, line.find('!')));
       NodeBox box;
       for (int axis = 0; axis < 3 && !failed(); ++axis) {
         const auto place = 2 * static_cast<size_t>(axis);
@@ -344,12 +350,13 @@ class IndexReader {
   }
 
   /// "... colour type [r g b a]": -3 announces a colour of its own.
-  static void own_colour(const std::vector<std::string_view>& words, ObstructionLabel& label) {
+  void own_colour(const std::vector<std::string_view>& words, ObstructionLabel& label) {
     if (words.size() < 11 || words[6] != "-3") return;
-    const auto red = share(words, 8), green = share(words, 9), blue = share(words, 10);
-    if (!red || !green || !blue) return;
-    label.rgb = glm::dvec3(*red, *green, *blue);
-    label.opacity = share(words, 11).value_or(1);
+    glm::dvec3 rgb(0);
+    for (int i = 0; i < 3; ++i)
+      rgb[i] = share(words, 8 + static_cast<size_t>(i), "the colour of an obstruction").value_or(0);
+    label.rgb = rgb;
+    label.opacity = share(words, 11, "the opacity of an obstruction").value_or(1);
   }
 
   /// The last vents are the plain faces of the mesh. Surfaces count from 0.
@@ -373,7 +380,7 @@ class IndexReader {
       if (surface < 0 || surface >= static_cast<int64_t>(surfaces.size())) continue;
       const std::string& name = surfaces[static_cast<size_t>(surface)].name;
       if (name == open_surface) mesh->openings.push_back(opening);
-      if (name == "MIRROR" || name.starts_with("PERIODIC")) ++symmetric_faces_;
+      if (is_symmetric(name)) ++symmetric_faces_;
     }
     for (size_t i = 0; i < n && !failed(); ++i) next_line();
   }
@@ -447,7 +454,11 @@ class IndexReader {
     if (failed() || smoke.output.quantity == Quantity::other) return;
     if (smoke.output.quantity == Quantity::density && mass_extinction > 0) {
       if (!(mass_extinction < 1e6)) return fail("a mass extinction of over 1e6 m2/kg cannot be");
-      out_.mass_extinction_m2_per_kg[smoke.output.species] = mass_extinction;
+      const auto [known, is_new] =
+          out_.mass_extinction_m2_per_kg.try_emplace(smoke.output.species, mass_extinction);
+      if (!is_new && known->second != mass_extinction)
+        return fail(fmt::format("the mass extinction of {} is {:g} m2/kg here and {:g} m2/kg above",
+                                smoke.output.species, mass_extinction, known->second));
     }
     out_.smoke.push_back(std::move(smoke));
   }
@@ -521,30 +532,34 @@ class IndexReader {
   }
 
   /// An obstruction that vanishes twice, or appears twice, did so once in a part of the run that a
-  /// restart made void.
+  /// restart made void. One process writes all events of an obstruction: if their times go back, by
+  /// however little, that was a restart, too. Which event is void is known from the order of the
+  /// records, not from that of times. Requires: changes in the order of the index.
   void drop_void_changes() {
-    std::map<std::pair<size_t, size_t>, size_t> last;
+    std::map<std::pair<size_t, size_t>, std::vector<size_t>> kept;  // by mesh and obstruction
     std::vector<uint8_t> is_void(out_.changes.size(), 0);
-    size_t dropped = 0;
+    bool told = false;
     for (size_t i = 0; i < out_.changes.size(); ++i) {
       const Change& change = out_.changes[i];
-      const auto [at, first] = last.try_emplace({change.mesh, change.obstruction}, i);
-      if (first) continue;
-      const Change& before = out_.changes[at->second];
-      if (before.appears == change.appears && before.time_s < change.time_s) {
-        is_void[at->second] = 1;
-        if (dropped++ == 0)
+      std::vector<size_t>& events = kept[{change.mesh, change.obstruction}];
+      while (!events.empty()) {
+        const Change& before = out_.changes[events.back()];
+        const bool again = before.appears == change.appears && before.time_s != change.time_s;
+        if (!again && before.time_s <= change.time_s) break;
+        is_void[events.back()] = 1;
+        events.pop_back();
+        if (again && !std::exchange(told, true))
           out_.notes.push_back(fmt::format(
               "line {}: an obstruction {} at {:.6g} s that does so at {:.6g} s, too, as after a "
-              "restart: the later event holds, here and for others of this kind",
+              "restart: the later record holds, here and for others of this kind",
               before.line, change.appears ? "appears" : "vanishes", before.time_s, change.time_s));
       }
-      at->second = i;
+      events.push_back(i);
     }
-    size_t kept = 0;
+    size_t count = 0;
     for (size_t i = 0; i < out_.changes.size(); ++i)
-      if (is_void[i] == 0) out_.changes[kept++] = out_.changes[i];
-    out_.changes.resize(kept);
+      if (is_void[i] == 0) out_.changes[count++] = out_.changes[i];
+    out_.changes.resize(count);
   }
 
   void note_what_is_left_out() {
@@ -606,9 +621,9 @@ class IndexReader {
         fail(fmt::format("it is of obstruction {}, and the mesh has {}", change.obstruction + 1,
                          out_.meshes[change.mesh].obstructions.size()));
     }
+    drop_void_changes();
     std::stable_sort(out_.changes.begin(), out_.changes.end(),
                      [](const Change& a, const Change& b) { return a.time_s < b.time_s; });
-    drop_void_changes();
     note_what_is_left_out();
   }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "runtime/core/regular_file.hpp"
 #include "scenes/formats/fields/data_set_fields.hpp"
 
 namespace luxodus::fds {
@@ -56,9 +55,7 @@ bool goes_with(const SizeLine& line, const Frame& frame) {
 
 Result<void> add_highest_values(const Case& fire, FrameFiles& smoke) {
   const std::string file = smoke.files.front().string() + ".sz";
-  if (!lies_within(fire, file))
-    return problem_in(file, "this file is not in the folder of its index");
-  const auto text = read_regular_file(file, limits::sizes_bytes);
+  const auto text = read_text_within(fire, file, limits::sizes_bytes);
   if (!text)
     return problem_in(file,
                       fmt::format("{}: from FDS 6.11 on, densities of Smoke3D are shares of values "

@@ -163,7 +163,8 @@ std::optional<Picked> picked(const std::vector<const Series*>& series, double at
       return t > out.first_s && t < out.last_s && !has_tick(common, t);
     });
     out.partial = std::max(out.partial, static_cast<size_t>(lone));
-    if (const auto step = step_of(of)) out.step_s = std::min(*step, out.step_s.value_or(*step));
+    // Frames that all have are as far apart as those of the series that has the fewest.
+    if (const auto step = step_of(of)) out.step_s = std::max(*step, out.step_s.value_or(*step));
   }
   const auto nearest = std::min_element(common.begin(), common.end(), [&](double a, double b) {
     return std::abs(a - at_s) < std::abs(b - at_s);
@@ -337,8 +338,8 @@ class SmokeChooser {
             : "");
     if (smokes_.empty() && !fire_.dense.empty())
       out += fmt::format(
-          "; it has the density of {}, whose mass extinction is not in its index: is it smoke, "
-          "then 'mass_extinction' states it",
+          "; it has the density of {}, whose mass extinction is not in its index: if it is "
+          "smoke, state its 'mass_extinction'",
           fmt::join(fire_.dense, " and "));
     return out;
   }

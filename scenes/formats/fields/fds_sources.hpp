@@ -32,7 +32,7 @@ struct Picked {
   size_t common = 0;                         // frames that all meshes of all series have
   size_t partial = 0;                        // between the first and the last: not in all of them
   std::optional<double> previous_s, next_s;  // of the common ones, around time_s
-  std::optional<double> step_s;              // the usual time from frame to frame
+  std::optional<double> step_s;              // the longest of the usual times from frame to frame
 };
 
 /// Species that absorb light, soot first: those whose extinction, optical density or visibility any

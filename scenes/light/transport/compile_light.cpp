@@ -81,10 +81,9 @@ void add_flames(const SceneDescription& scene, const Scenario& scenario,
                 std::vector<ActiveSource>& out) {
   for (uint32_t i = 0; i < scene.media.size(); ++i) {
     const Medium& m = scene.media[i];
-    if (!m.emission || factor_of(scenario.media, m.name, 1) <= 0) continue;
-    const double watts = m.emission->power_w * m.emission->visible_fraction *
-                         scenario.emission_factor *
-                         factor_of(scenario.circuits, m.emission->circuit, 1);
+    if (!m.emission) continue;
+    const double watts =
+        m.emission->power_w * m.emission->visible_fraction * flame_share(scenario, m);
     if (watts <= 0) continue;
     ActiveSource s;
     s.medium = &m;
@@ -100,6 +99,11 @@ void add_flames(const SceneDescription& scene, const Scenario& scenario,
 }
 
 }  // namespace
+
+double flame_share(const Scenario& scenario, const Medium& medium) {
+  if (!medium.emission || factor_of(scenario.media, medium.name, 1) <= 0) return 0;
+  return scenario.emission_factor * factor_of(scenario.circuits, medium.emission->circuit, 1);
+}
 
 double factor_of(const std::vector<Scenario::Factor>& factors, const std::string& name,
                  double other) {

@@ -34,6 +34,10 @@ double extinction_factor(const Scenario& scenario, const std::string& medium);
 /// not apply to flames; it does apply to data sets that glow, since they are smoke, too.
 double factor_of_medium(const Scenario& scenario, const Medium& medium);
 
+/// The share of the light of a medium's flame that the scenario leaves; 0 without a flame, or where
+/// the medium is absent.
+double flame_share(const Scenario& scenario, const Medium& medium);
+
 /// Luminance [cd/m2] of a sign's colour along the normal in this scenario.
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario);
 

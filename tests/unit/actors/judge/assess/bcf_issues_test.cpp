@@ -2,6 +2,7 @@
 #include "actors/judge/assess/bcf_issues.hpp"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 using namespace luxodus;
 
@@ -79,6 +80,89 @@ TEST_CASE("each failed check is an issue with a camera and GlobalIds", "[assess]
                     "<CameraDirection><X>1</X><Y>0</Y><Z>0</Z></CameraDirection>") !=
         std::string::npos);
   CHECK(bytes == bcf_issues(assessment_with({area, route, lamp, sign, passed})));
+}
+
+TEST_CASE("the camera of an issue is at the height of an eye above the floor below it",
+          "[assess]") {
+  const auto eye_height = [](const AssessmentRecord& a) {
+    const auto bytes = bcf_issues(a);
+    REQUIRE(bytes);
+    const size_t eye = bytes->find("<CameraViewPoint>");
+    const size_t from = bytes->find("<Z>", eye) + 3;
+    return std::stod(bytes->substr(from, bytes->find("</Z>", from) - from));
+  };
+  const CheckRecord lamp = issue_check({SubjectKind::luminaire, "lamp"}, CheckVerdict::fail);
+  AssessmentRecord a = assessment_with({lamp});
+  a.plan.levels.resize(2);
+  a.plan.levels[1].floor_m = 4;
+  // A lamp at 2.9 m in a room; a higher area of the same outline, upstairs.
+  CHECK(eye_height(a) == Approx(1.6));
+  AreaRecord upstairs = a.places.areas.front();
+  upstairs.z_m = 4;
+  a.places.areas.push_back(upstairs);
+  CHECK(eye_height(a) == Approx(1.6));
+  a.luminaires.front().position.z = 6.9;
+  CHECK(eye_height(a) == Approx(5.6));
+  std::swap(a.places.areas.front(), a.places.areas.back());
+  CHECK(eye_height(a) == Approx(5.6));
+  // Over no area: the floor of the level.
+  a.luminaires.front().position = {20, 20, 6.9};
+  CHECK(eye_height(a) == Approx(5.6));
+  // Below all floors that are known.
+  a.luminaires.front().position.z = -1;
+  CHECK(eye_height(a) == Approx(-1));
+}
+
+TEST_CASE("the identifier of an issue follows from ids alone", "[assess]") {
+  CheckRecord after = issue_check({SubjectKind::open_area, "hall"}, CheckVerdict::fail);
+  after.conditions = {remark(RemarkId::after_mains_failure, 5)};
+  const auto topic = [](const CheckRecord& check) {
+    const auto bytes = bcf_issues(assessment_with({check}));
+    REQUIRE(bytes);
+    const size_t from = bytes->find("<Topic Guid=\"") + 13;
+    return bytes->substr(from, 36);
+  };
+  // Neither words nor results change it: not the title, the value, the limit, or which luminaire is
+  // the worst. The constant holds it fast.
+  const std::string guid = topic(after);
+  CHECK(guid == "21a88adb-d9ee-8997-925f-98a530b6c353");
+  CheckRecord same = after;
+  same.rule.edition = "another name of the edition";
+  same.rule.clause = "9.9";
+  same.value = 0.2;
+  same.limit = 0.6;
+  same.reasons = {remark(RemarkId::no_value)};
+  CHECK(topic(same) == guid);
+  CheckRecord failed = issue_check({SubjectKind::open_area, "hall"}, CheckVerdict::fail);
+  failed.conditions = {remark(RemarkId::luminaire_failed, "east")};
+  CheckRecord other_lamp = failed;
+  other_lamp.conditions = {remark(RemarkId::luminaire_failed, "west")};
+  CHECK(topic(failed) == topic(other_lamp));
+  // Rule, rule set, subject and time do, even if the texts of two times are equal.
+  std::set<std::string> guids{guid, topic(failed)};
+  CheckRecord other = after;
+  other.rule.id = RuleId::E7;
+  CHECK(guids.insert(topic(other)).second);
+  other = after;
+  other.rule.set = "en1838-2013";
+  CHECK(guids.insert(topic(other)).second);
+  other = after;
+  other.subject = {SubjectKind::task_area, "hall"};
+  CHECK(guids.insert(topic(other)).second);
+  other = after;
+  other.conditions = {remark(RemarkId::after_mains_failure, 5.0000001)};
+  CHECK(english().remarks(other.conditions) == english().remarks(after.conditions));
+  CHECK(guids.insert(topic(other)).second);
+}
+
+TEST_CASE("failed checks of equal identity are issues of their own", "[assess]") {
+  const CheckRecord check = issue_check({SubjectKind::open_area, "hall"}, CheckVerdict::fail);
+  const auto bytes = bcf_issues(assessment_with({check, check}));
+  REQUIRE(bytes);
+  CHECK(count_in(*bytes, "<Topic Guid=") == 2);
+  const size_t first = bytes->find("<Topic Guid=\"");
+  const size_t second = bytes->find("<Topic Guid=\"", first + 1);
+  CHECK(bytes->substr(first, 49) != bytes->substr(second, 49));
 }
 
 TEST_CASE("without failed checks or GlobalIds there are no issues", "[assess]") {

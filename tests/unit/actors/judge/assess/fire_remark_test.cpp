@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "actors/judge/assess/judged_state.hpp"
+#include "actors/judge/assess/state_words.hpp"
 
 namespace luxodus {
 namespace {
@@ -75,6 +76,46 @@ TEST_CASE("verdicts in smoke say if a state leaves out the light of flames", "[a
   // There is no fire in clear air.
   off.media = {{"smoke", 0}};
   CHECK_FALSE(dimmed(off));
+}
+
+TEST_CASE("smoke above everything that people look at is no clear air, and flames still count",
+          "[assess]") {
+  // A room of 3 m; an eye at 1.65 m and no sign above it. Smoke in the upper half alone.
+  SceneDescription scene;
+  Object room;
+  room.mesh.positions = {{0, 0, 0}, {2, 2, 3}};
+  scene.objects = {room};
+  EscapeRoute way;
+  way.path = {{0.5, 1, 0}, {1.5, 1, 0}};
+  scene.routes = {way};
+  scene.assessment.eye_heights_m = {1.65};
+  Medium smoke, flame;
+  smoke.name = "smoke";
+  smoke.kind = MediumKind::data_set;
+  smoke.optics.extinction.sigma_t = 1;
+  smoke.data.nx = smoke.data.ny = 1;
+  smoke.data.nz = 3;
+  smoke.data.extent = {2, 2, 3};
+  smoke.data.extinction = {0, 0, 5};
+  flame.name = "fl";
+  flame.kind = MediumKind::bounded;
+  flame.emission.emplace();
+  scene.media = {smoke, flame};
+  Scenario off;
+  off.emission_factor = 0;
+  const AssessedState judged = state_of(scene, off, {});
+  CHECK(judged.smoke);
+  CHECK(judged.media.at(0).extinction_max == 0);
+  const auto warned = [&](const Remark& one) {
+    return std::count(judged.warnings.begin(), judged.warnings.end(), one) > 0;
+  };
+  CHECK(warned(remark(RemarkId::flame_dimmed, 0.0, "fl")));
+  CHECK_FALSE(warned(remark(RemarkId::clear_air)));
+  AssessmentRecord record;
+  record.state.smoke = StateSmokeRecord{{0, 0, stated_nm}, judged.media};
+  CHECK(first_sentence(record, "").find("clear air") == std::string::npos);
+  CHECK(first_sentence(record, "").find("with smoke, but none in the building between") !=
+        std::string::npos);
 }
 
 TEST_CASE("the smoke of a state is that in the building where people look", "[assess]") {

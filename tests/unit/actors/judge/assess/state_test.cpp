@@ -346,13 +346,13 @@ TEST_CASE("a comparison reports that two judged states differ", "[assess][state]
 TEST_CASE("checks that fail and checks or views without a clear verdict are open",
           "[assess][state]") {
   AssessmentRecord done;
-  done.counts.pass = 3;
+  done.verdict.counts.pass = 3;
   done.sight_counts = {{"legible", 4}, {"invisible", 1}};
   CHECK_FALSE(anything_open(done));
   for (const auto verdict :
        {&CountsRecord::fail, &CountsRecord::not_assessed, &CountsRecord::not_verified}) {
     AssessmentRecord open = done;
-    open.counts.*verdict = 1;
+    open.verdict.counts.*verdict = 1;
     CHECK(anything_open(open));
   }
   for (const char* verdict : {"undecided", "not assessed"}) {

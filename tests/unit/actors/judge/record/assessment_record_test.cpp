@@ -91,7 +91,6 @@ AssessmentRecord full() {
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
   a.people = {40, 0.5, true};
   a.method = {7, 1000, 0.5};
-  a.counts = {1, 0, 0, 0};
   a.sight_counts = {{"visible but not legible", 1}};
   a.checks = {check()};
   a.sights = {sight()};

@@ -206,7 +206,7 @@ TEST_CASE("the headline of a report says in each language what a terminal says f
   smoky.state.scenario = "Brand";
   smoky.state.seconds_after_failure = 600;
   smoky.state.smoke = {{0.05, 2, 633}, {}};
-  smoky.counts = {.pass = 7, .fail = 2, .not_assessed = 1, .not_verified = 0};
+  smoky.verdict.counts = {.pass = 7, .fail = 2, .not_assessed = 1, .not_verified = 0};
   smoky.sight_counts = {{"legible", 3}, {"invisible", 5}};
   CHECK(headline(Texts(Language::de), smoky) ==
         "„Brand“, Notbetrieb, 600 s nach dem Netzausfall, in Rauch von 0,05/m bis 2/m, nach " +

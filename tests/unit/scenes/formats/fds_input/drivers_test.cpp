@@ -75,6 +75,19 @@ TEST_CASE("a ramp of the clock drives what is there while it is above zero", "[f
   CHECK_THAT(course_by(control).driven_by, Contains("\"c\""));
 }
 
+TEST_CASE("a ramp that is too long is told, and the building is read", "[fds][input]") {
+  std::string groups =
+      "&DEVC ID='t', QUANTITY='TIME' /\n"
+      "&CTRL ID='c', FUNCTION_TYPE='CUSTOM', INPUT_ID='t', RAMP_ID='r' /\n";
+  for (size_t i = 0; i <= fds_input::limits::turns + 5; ++i)
+    groups += "&RAMP ID='r', T=" + std::to_string(i) + ", F=1 /\n";
+  const FdsInput input = DrivenCase().good(groups + "&OBST XB=1,2,1,2,0,1, CTRL_ID='c' /\n");
+  CHECK_THAT(input.obstructions.at(0).course.driven_by, Contains("\"c\""));
+  REQUIRE(input.notes.size() == 1);
+  CHECK_THAT(input.notes[0],
+             Contains("line 10005") && Contains("\"r\"") && Contains("more than 10000 points"));
+}
+
 TEST_CASE("controls of clocks change at the times of their inputs", "[fds][input]") {
   struct Row {
     const char* control;
@@ -227,7 +240,8 @@ TEST_CASE("moved bodies and boxes stand where &MOVE puts them", "[fds][input]") 
 
 TEST_CASE("planes of symmetry become walls with a note", "[fds][input]") {
   const auto input = DrivenCase().good(
-      "&VENT MB='XMIN', SURF_ID='MIRROR' /\n&VENT MB='XMAX', SURF_ID='PERIODIC' /\n");
+      "&VENT MB='XMIN', SURF_ID='MIRROR' /\n&VENT MB='XMAX', SURF_ID='PERIODIC FLOW ONLY' /\n"
+      "&VENT MB='YMAX', SURF_ID='PERIODICAL' /\n");
   CHECK(input.openings.empty());
   const FireBuilding building = as_written(input);
   REQUIRE(building.notes.size() == 1);

@@ -388,7 +388,105 @@ TEST_CASE("events and heat of a part that a restart made void do not count", "[f
   c.folder.write("small_hrr.csv",
                  "s,kW\nTime,HRR\n 0.0,0.0\n 13.0,999\n 14.0,999\n 7.0,70\n 12.0,120\n");
   c.options.flames = true;
-  CHECK(smoke_of(c.read(12)).heat_release_kw == Approx(120));
+  const LoadedFire fire = smoke_of(c.read(12));
+  CHECK(fire.heat_release_kw == Approx(120));
+  CHECK(any_tells(fire.notes, "times in small_hrr.csv go back from 14 to 7 s"));
+  // A time that is written twice is one line, the later one.
+  c.folder.write("small_hrr.csv", "s,kW\nTime,HRR\n 0.0,0.0\n 12.0,999\n 12.0,120\n");
+  const LoadedFire again = smoke_of(c.read(12));
+  CHECK(again.heat_release_kw == Approx(120));
+  CHECK(any_tells(again.notes, "times in small_hrr.csv go back from 12 to 12 s"));
+  c.folder.write("small_hrr.csv", "s,kW\nTime,HRR\n 0.0,0.0\n 12.0,120\n");
+  CHECK(smoke_of(c.read(12)).notes.empty());
+}
+
+TEST_CASE("the later record of an obstruction holds, even if it is of a slightly earlier time",
+          "[format][fds]") {
+  SmokeCase c;
+  SmallMesh& mesh = c.meshes[0];
+  mesh.obstructions = {{1, 2, 0, 4, 0, 3}};
+  const auto cells = cell_values(mesh, even(1));
+  c.folder.write("a.sf", slice_file(mesh, soot_extinction, {{0, cells}}));
+  const auto vanishes = [&](const std::string& events) {
+    c.index(slice_entry(1, true, mesh, "a.sf", soot_extinction) + events);
+    const auto made = read_fire_building(c.folder / "case.smv", 0);
+    REQUIRE(made.ok());
+    return made->tables.text();
+  };
+  CHECK(tells(vanishes("HIDE_OBST 1\n 1 8.3\nHIDE_OBST 1\n 1 8.0\n"), "vanishes_at = [8]"));
+  CHECK(tells(vanishes("HIDE_OBST 1\n 1 8.0\nHIDE_OBST 1\n 1 8.3\n"), "vanishes_at = [8.3]"));
+  CHECK(tells(vanishes("HIDE_OBST 1\n 1 8.0\nSHOW_OBST 1\n 1 8.3\nHIDE_OBST 1\n 1 8.1\n"),
+              "vanishes_at = [8.1]"));
+}
+
+TEST_CASE("files of one species with different mass extinctions are refused", "[format][fds]") {
+  SmokeCase c;
+  const auto refused = [&](const char* first, const char* second) {
+    c.index(smoke_entry(1, "a.s3d", "SOOT DENSITY", first) +
+            smoke_entry(1, "b.s3d", "SOOT DENSITY", second));
+    return refused_fire(c.read(0));
+  };
+  CHECK(tells(refused("8700.0", "4350.0"), "the mass extinction of SOOT is 4350 m2/kg here"));
+  CHECK(tells(refused("4350.0", "8700.0"), "the mass extinction of SOOT is 8700 m2/kg here"));
+  CHECK_FALSE(refused("8700.0", "8700.0").find("the mass extinction") != std::string::npos);
+}
+
+TEST_CASE("a colour or an opacity of the index that is no number from 0 to 1 is an error",
+          "[format][fds]") {
+  SmokeCase c;
+  c.meshes[0].obstructions = {{1, 2, 0, 4, 0, 3}};
+  const std::string index = index_of_meshes(c.meshes);
+  const std::string own = " 1 2 0 4 0 3 -3 0 0.5 0.5 0.5 ";
+  const auto read = [&](const std::string& text) {
+    c.folder.write("case.smv", text);
+    return read_fire_building(c.folder / "case.smv", 0);
+  };
+  const auto with_own = [&](const std::string& opacity) {
+    return read(replaced(index, " 1 2 0 4 0 3 -1 -1", own + opacity));
+  };
+  CHECK(with_own("0.25").ok());
+  CHECK(with_own("").ok());
+  for (const char* bad : {"none", "1.5", "-0.1", "nan"}) {
+    const auto refused = with_own(bad);
+    REQUIRE_FALSE(refused.ok());
+    CHECK(tells(refused.problem().text(), "the opacity of an obstruction"));
+    CHECK(refused.problem().where.line > 20);
+    CHECK(tells(refused.problem().where.file, "case.smv"));
+    const auto surface = read(replaced(index, "0.8 0.4 1\n", "0.8 0.4 " + std::string(bad) + "\n"));
+    REQUIRE_FALSE(surface.ok());
+    CHECK(tells(surface.problem().text(), "the opacity of a surface"));
+  }
+}
+
+TEST_CASE("a time between frames is in reach where one mesh has fewer frames than another",
+          "[format][fds]") {
+  SmokeCase c;
+  c.meshes = {even_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
+              even_mesh({1, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const auto cells = cell_values(c.meshes[0], even(1));
+  std::vector<SmallFrame> often, seldom;
+  for (int t = 0; t <= 20; ++t) often.push_back({static_cast<float>(t), cells});
+  for (int t = 0; t <= 20; t += 10) seldom.push_back({static_cast<float>(t), cells});
+  c.folder.write("a.sf", slice_file(c.meshes[0], soot_extinction, often));
+  c.folder.write("b.sf", slice_file(c.meshes[1], soot_extinction, seldom));
+  c.index(slice_entry(1, true, c.meshes[0], "a.sf", soot_extinction) +
+          slice_entry(2, true, c.meshes[1], "b.sf", soot_extinction));
+  CHECK(smoke_of(c.read(4)).time_s == 0);
+  CHECK(smoke_of(c.read(6)).time_s == 10);
+}
+
+TEST_CASE("a mesh that is stretched too much is refused with the limit", "[format][fds]") {
+  SmokeCase c;
+  SmallMesh& mesh = c.meshes[0];
+  mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+  c.folder.write("a.sf", slice_file(mesh, soot_extinction, {{0, cell_values(mesh, even(1))}}));
+  const auto refused = [&](double thin_m) {
+    for (auto& nodes : mesh.nodes) nodes[1] = thin_m;
+    c.index(slice_entry(1, true, mesh, "a.sf", soot_extinction));
+    return refused_fire(c.read(0));
+  };
+  CHECK(tells(refused(0.0001), "it would have more than 8192 there"));
+  CHECK(tells(refused(0.00131), "and at most 1073741824 are read"));
 }
 
 TEST_CASE("optical density counts with 2.3 up to FDS 6.10, and with ln 10 from 6.11 on",
