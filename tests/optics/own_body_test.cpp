@@ -2,6 +2,7 @@
 // its way from the luminaire; all other light, and its own once scattered, meets it.
 #include <cmath>
 
+#include "scenes/light/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
@@ -52,6 +53,49 @@ Run run_of(const std::string& text, int64_t particles = 1 << 16) {
   return Run(scene_from_toml(text), options);
 }
 
+/// Compares the light that arrives at the planes after at least one event: by particles, and by
+/// paths from the eye to probes on each plane.
+void check_paths_agree_with_particles(const std::string& text, double max_relative_error) {
+  SceneDescription scene = scene_from_toml(text);
+  constexpr uint32_t per_side = 5, n = per_side * per_side;
+  std::vector<BinSum> probes_of_plane;
+  std::vector<double> area_m2;
+  for (const PlaneMeasure& plane : scene.planes) {
+    probes_of_plane.push_back({&TallyBlocks::probes, {}});
+    area_m2.push_back(glm::length(plane.edge_u) * glm::length(plane.edge_v));
+    for (uint32_t k = 0; k < n; ++k) {
+      ProbeMeasure p;
+      p.name = plane.name + " " + std::to_string(k);
+      p.position = plane.corner + plane.edge_u * ((k % per_side + 0.5) / per_side) +
+                   plane.edge_v * ((k / per_side + 0.5) / per_side);
+      p.normal = glm::normalize(glm::cross(plane.edge_u, plane.edge_v));
+      probes_of_plane.back().bins.push_back(static_cast<uint32_t>(scene.probes.size()));
+      scene.probes.push_back(p);
+    }
+  }
+  scene.run.eye_path_factor = 8;
+  const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
+  RunOptions options;
+  options.particles = 1 << 21;
+  const Run run(std::move(scene), options, probes_of_plane);
+  for (uint32_t plane = 0; plane < area_m2.size(); ++plane) {
+    INFO("plane " << plane);
+    check_agree(run.sum(plane) * (1 / (lm_per_w * n)),
+                run.watts(run.blocks().planes, plane, 1) * (1 / area_m2[plane]),
+                max_relative_error);
+  }
+}
+
+/// A body of one material about the lamp, and a mirror under the ceiling.
+std::string body_and_mirror(const std::string& material) {
+  return "[[material]]\nname = \"own\"\n" + material +
+         "[[material]]\nname = \"mirror\"\nkind = \"mirror\"\nspecular = 0.9\n"
+         "[[object]]\nname = \"mirror\"\nshape = \"box\"\nlow = [-1, -1, 2.92]\n"
+         "high = [1, 1, 2.95]\nmaterial = \"mirror\"\n"
+         "[[object]]\nname = \"housing\"\nshape = \"box\"\nlow = [-0.3, -0.3, 1.9]\n"
+         "high = [0.3, 0.3, 2.1]\nmaterial = \"own\"\nbody_of = [\"lamp\"]\n";
+}
+
 }  // namespace
 
 TEST_CASE("in a black room a lamp's own body changes nothing, and another's body hides it") {
@@ -91,31 +135,50 @@ TEST_CASE("a body hides the light of other lamps, and light that comes back to i
 }
 
 TEST_CASE("paths from the eye find the light that passes a lamp's own body") {
-  SceneDescription scene = scene_from_toml(room_with("0.6", body_of("\"lamp\""), upward));
-  constexpr uint32_t per_side = 5, n = per_side * per_side;
-  std::vector<BinSum> probes_of_plane;
-  for (const PlaneMeasure& plane : scene.planes) {
-    probes_of_plane.push_back({&TallyBlocks::probes, {}});
-    for (uint32_t k = 0; k < n; ++k) {
-      ProbeMeasure p;
-      p.name = plane.name + " " + std::to_string(k);
-      p.position = plane.corner + plane.edge_u * ((k % per_side + 0.5) / per_side) +
-                   plane.edge_v * ((k / per_side + 0.5) / per_side);
-      p.normal = glm::normalize(glm::cross(plane.edge_u, plane.edge_v));
-      probes_of_plane.back().bins.push_back(static_cast<uint32_t>(scene.probes.size()));
-      scene.probes.push_back(p);
-    }
+  check_paths_agree_with_particles(room_with("0.6", body_of("\"lamp\""), upward), 4 * half_percent);
+}
+
+TEST_CASE("paths from the eye find a lamp behind its own glass or opening once") {
+  for (const char* material : {"kind = \"glass\"\ntransmittance = 0.6\n", "kind = \"open\"\n"}) {
+    INFO(material);
+    check_paths_agree_with_particles(room_with("0.6", body_and_mirror(material), upward),
+                                     8 * half_percent);
   }
-  scene.run.eye_path_factor = 8;
-  const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
-  RunOptions options;
-  options.particles = 1 << 21;
-  const Run run(std::move(scene), options, probes_of_plane);
-  constexpr double plane_area = 16;
-  for (uint32_t plane = 0; plane < 2; ++plane) {
-    INFO("plane " << plane);
-    check_agree(run.sum(plane) * (1 / (lm_per_w * n)),
-                run.watts(run.blocks().planes, plane, 1) * (1 / plane_area), 4 * half_percent);
+}
+
+TEST_CASE("an eye sees a lamp behind its own glass as bright as without it") {
+  const auto seen_w = [](const std::string& body) {
+    const Run run = run_of(room_with("0", body, upward), 1 << 12);
+    const auto tracer =
+        make_picture_tracer(run.scene(), GeometryAccess::resident(run.local().index()), 1, nullptr);
+    tracer->start(0, 1, 0);
+    FirstHit first;
+    const glm::dvec3 eye(0.1, 0.05, 2.8);
+    tracer->radiance({Vec3(eye - run.scene().local_origin), Vec3(0, 0, -1)}, 0, nullptr, &first);
+    return first.emitted.at(0);
+  };
+  const double bare = seen_w("");
+  CHECK(bare > 0);
+  CHECK(seen_w(body_and_mirror("kind = \"glass\"\ntransmittance = 0.6\n")) == Approx(bare));
+  CHECK(seen_w(body_of("\"lamp\"")) == 0);  // it is opaque
+}
+
+TEST_CASE("a lamp does not light its own body, neither by particles nor by paths from the eye") {
+  // Face and planes are between the body and the ceiling, so that the body fills much of the view.
+  const std::string face_on_it =
+      "[[emitter]]\nname = \"lamp\"\nshape = \"rectangle\"\nsize = [0.4, 0.4]\nflux_w = 1\n"
+      "spectrum = \"E\"\nposition = [0, 0, 2.5]\ndirection = [0, 0, -1]\n"
+      "[[plane]]\nname = \"near\"\ncorner = [-0.25, -0.25, 2.2]\nedge_u = [0, 0.5, 0]\n"
+      "edge_v = [0.5, 0, 0]\ncells = [1, 1]\n";
+  const std::string glossy =
+      "[[material]]\nname = \"own\"\nkind = \"glossy\"\nreflectance = 0.4\nspecular = 0.3\n"
+      "roughness = 0.3\n";
+  for (const std::string& material : {std::string(), glossy}) {
+    INFO(material);
+    std::string body = body_of("\"lamp\"");
+    if (!material.empty()) body.replace(body.find("\"m\""), 3, "\"own\"");
+    check_paths_agree_with_particles(room_with("0.6", material + body, face_on_it),
+                                     8 * half_percent);
   }
 }
 

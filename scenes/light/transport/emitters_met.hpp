@@ -35,6 +35,20 @@ enum class EmitterHits {
   all,       // no emitter was sampled
 };
 
+/// Share of the power that passes a pane or an open surface undeviated.
+inline double straight_transmittance(const SurfaceModel& model, Real cos_theta) {
+  return model.kind == SurfaceKind::glass_pane
+             ? static_cast<double>(pane_transmittance(model, cos_theta))
+             : 1;
+}
+
+/// A surface of a luminaire's body that a path has met since its last event, or at it.
+struct BodyMet {
+  int body = 0;
+  bool passed = false;         // straight on: a pane or an open surface
+  BandValues transmittance{};  // if passed, by the path's bands
+};
+
 /// An eye path: its next ray and what it carries.
 struct EyePath {
   Ray ray;
@@ -46,6 +60,21 @@ struct EyePath {
   Real travelled = 0;             // from the last event to the ray's origin, through panes
   bool diffused = false;          // a surface or a medium has scattered it diffusely
   bool scattered_cached = false;  // in-scattered light is from the cache
+  std::vector<BodyMet> bodies{};  // empty in scenes without bodies
+
+  /// Factor on the light of an emitter hit, in the band in place `i`; `body`: the emitter's own.
+  /// The emitter's intensities were measured with its body. So its light neither lights the body
+  /// nor is dimmed by it, as in the particle tracer. Sampling an emitter passes its body, too, and
+  /// counts alone.
+  double share_past_body(int body, size_t i) const {
+    double share = 1;
+    for (const BodyMet& met : bodies) {
+      if (met.body != body) continue;
+      if (!met.passed || counted == EmitterHits::weighted || !(met.transmittance[i] > 0)) return 0;
+      share /= met.transmittance[i];
+    }
+    return share;
+  }
 
   /// Adds light of the band in place `i`.
   void add(size_t i, const SourceLight& light) {
@@ -83,7 +112,8 @@ class EmittersMet {
       for (size_t i = 0; i < p.bands.count(); ++i) {
         const double sent =
             emitted_radiance(emitter, e.point, -p.ray.direction, p.bands.band(i), resolver_);
-        p.add(i, {emitter.group, weight * sent * through_[i]});
+        const double past_body = p.bodies.empty() ? 1 : p.share_past_body(emitter.body, i);
+        p.add(i, {emitter.group, weight * sent * through_[i] * past_body});
       }
       // Continue past it by more than rounding, or the same face would be hit again.
       const Real step = e.distance * slack + scene_.min_offset_m;

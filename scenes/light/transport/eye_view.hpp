@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "scenes/light/geometry/real.hpp"
 #include "scenes/light/transport/connect.hpp"
@@ -55,8 +56,10 @@ class EyeView {
     Hit hit = met.hit;
     Real before = 0;
     int panes = 0;
+    bodies_.clear();
     for (; panes < limits::panes_per_line; ++panes) {
       EyePath path{rest, through, EmitterHits::all, 1, straight_};
+      path.bodies = bodies_;
       emitters_.add_along(path, hit);
       if (!hit.found() || !pass_straight(rest, hit, through)) break;
       before += hit.distance;
@@ -81,11 +84,12 @@ class EyeView {
     if (material.kind != MaterialKind::glass_pane && material.kind != MaterialKind::open)
       return false;
     media_.transmittances(ray, line_end(scene_, hit.distance), through, passed_, resolver_);
+    BodyMet met{scene_.surfaces[t.surface].body, true, {}};
     for (size_t b = 0; b < through.count(); ++b) {
-      if (material.kind == MaterialKind::glass_pane)
-        passed_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
-      through.scale(b, passed_[b]);
+      met.transmittance[b] = straight_transmittance(material.by_band[b], cosine);
+      through.scale(b, passed_[b] * met.transmittance[b]);
     }
+    if (met.body != 0) bodies_.push_back(met);
     ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
                             scene_.min_offset_m);
     return true;
@@ -113,6 +117,7 @@ class EyeView {
   int brightest_band_ = 0;  // band with the most lumens per watt
   GroupLight straight_;
   BandValues passed_;
+  std::vector<BodyMet> bodies_;  // passed by the ray that is described
 };
 
 }  // namespace luxodus

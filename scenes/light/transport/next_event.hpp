@@ -80,14 +80,16 @@ class NextEvent {
   }
 
   /// Adds `weight` times the emitted light that a surface reflects against `direction`, by sampling
-  /// one emitter. `models`: for the path's bands.
+  /// one emitter. `models`: for the path's bands. `body`: of which the surface is a part, or 0. An
+  /// emitter does not light its own body: its intensities were measured with it.
   void add_reflected(const Vec3& place, const Vec3& direction, const Vec3& normal,
-                     std::span<const SurfaceModel> models, const PathBands& bands, double weight,
-                     GroupLight& into) {
+                     std::span<const SurfaceModel> models, int body, const PathBands& bands,
+                     double weight, GroupLight& into) {
     if (!weigh_at(place, normal, bands)) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
     if (sampled.probability <= 0) return;
     const CompiledEmitter& e = scene_.emitters[sampled.emitter];
+    if (body != 0 && body == e.body) return;
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
     if (!arrive(e, point, place, bands)) return;
     const Vec3& towards = arriving_.direction;
@@ -235,8 +237,7 @@ class NextEvent {
     }
     if (!any) return false;
     arriving_.direction = c.ray.direction;
-    // Rays of paths stop at the body, so that none finds the emitter behind it: sampling it counts
-    // alone.
+    // Paths that meet the body do not count hits of the emitter behind it: sampling counts alone.
     arriving_.apparent_sr =
         own.surfaces_met > 0 ? 0 : apparent_solid_angle(e, point, -c.ray.direction, c.distance);
     return true;

@@ -2,9 +2,11 @@
 // reciprocal), in one band or in all at once. At every event one emitter is sampled (next-event
 // estimation, next_event.hpp), and emitters that a path hits count, too, combined by multiple
 // importance sampling. Unbiased, except that paths of pictures may end in a radiance cache, the
-// flux tallied by a run (final gather). eye_paths.hpp estimates signs and probes with it. Not
-// included: hits of point emitters, and caustics through mirrors and refracting solids; the
-// particle tracer counts those. Thread rule: one PathTracer per thread or fiber.
+// flux tallied by a run (final gather). eye_paths.hpp estimates signs and probes with it. As in
+// the particle tracer, an emitter does not light its own body, whose panes do not dim it. Not
+// included: hits of point emitters, caustics through mirrors and refracting solids, and emitters
+// seen by an eye or in a mirror through their own opaque body; the particle tracer counts those.
+// Thread rule: one PathTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
@@ -143,11 +145,11 @@ class PathTracer {
   }
 
   /// Adds `weight` times the emitted light that a surface reflects against `direction`, by sampling
-  /// one emitter.
+  /// one emitter. Requires: the surface is no part of a luminaire's body.
   void add_reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
                            const SurfaceModel& model, int band, double weight, GroupLight& into) {
-    next_event_.add_reflected(place, direction, normal, {&model, 1}, PathBands::one(band), weight,
-                              into);
+    next_event_.add_reflected(place, direction, normal, {&model, 1}, 0, PathBands::one(band),
+                              weight, into);
   }
 
  private:
@@ -356,6 +358,7 @@ class PathTracer {
     p.ray = {p.vertex.place, direction};
     p.counted = EmitterHits::weighted;
     p.travelled = 0;
+    p.bodies.clear();
     p.diffused = true;
     p.scattered_cached = cached == CachedLight::scattered;
   }
@@ -417,6 +420,7 @@ class PathTracer {
     Vec3 before;         // the place, offset from the surface
     bool front;
     Real distance;  // along the path's ray
+    int body;       // of which the surface is a part, or 0
   };
 
   /// Surface event: samples an emitter, then a new direction. False ends the path.
@@ -435,14 +439,15 @@ class PathTracer {
                               resolver_);
     const Vec3 normal = front ? t.unit_normal() : -t.unit_normal();
     const Vec3 place = t.at(hit.u, hit.v);
-    return {place, normal, offset_ray(place, normal, scene_.min_offset_m), front, hit.distance};
+    return {place, normal,       offset_ray(place, normal, scene_.min_offset_m),
+            front, hit.distance, scene_.surfaces[t.surface].body};
   }
 
   void add_reflected(Path& p, const SurfaceEvent& e) {
     const SurfaceKind kind = models_[p.bands.hero_place()].kind;
     if (kind == SurfaceKind::lambertian || kind == SurfaceKind::glossy)
-      next_event_.add_reflected(e.before, p.ray.direction, e.normal, models_, p.bands, p.weight,
-                                p.into);
+      next_event_.add_reflected(e.before, p.ray.direction, e.normal, models_, e.body, p.bands,
+                                p.weight, p.into);
   }
 
   TurnNumbers surface_numbers() {
@@ -472,7 +477,9 @@ class PathTracer {
       p.counted = s.specular ? EmitterHits::all : EmitterHits::weighted;
       p.travelled = 0;
       p.scattered_cached = false;
+      p.bodies.clear();
     }
+    if (e.body != 0) note_body(p, e, straight);
     p.ray.direction = s.direction;
     p.ray.origin = offset_ray(e.place, s.transmitted ? -normal : normal, scene_.min_offset_m);
     if (s.specular) return true;
@@ -483,6 +490,15 @@ class PathTracer {
     p.vertex.in_medium = false;
     if (aimed) weigh_aimed(p, s.direction);
     return true;
+  }
+
+  /// Requires: `models_` are those of the surface, and the path still has its old direction.
+  void note_body(Path& p, const SurfaceEvent& e, bool straight) const {
+    BodyMet met{e.body, straight, {}};
+    const Real cosine = glm::dot(p.ray.direction, e.normal);
+    for (size_t i = 0; straight && i < p.bands.count(); ++i)
+      met.transmittance[i] = straight_transmittance(models_[i], cosine);
+    p.bodies.push_back(met);
   }
 
   /// Replaces the direction of a Lambertian reflection if it is to be guided. False: it points
