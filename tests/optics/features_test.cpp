@@ -110,3 +110,14 @@ TEST_CASE("features that a scene uses are on, with their reason") {
     if (f.name == "media") CHECK(f.why == "homogeneous: one extinction everywhere");
   }
 }
+
+TEST_CASE("a body of a luminaire is a feature of its own, and only if the luminaire is lit") {
+  SceneDescription scene = plain_room();
+  scene.objects.front().body = scene.emitters.front().body = 1;
+  const auto lit = compiled(scene, Scenario{});
+  CHECK(lit->features.bodies);
+  CHECK_FALSE(lit->features.surfaces);
+  scene.emitters.front().body = 0;
+  add_rectangle(scene, {1, 1, 2.4}, {0, 0, -1}, 0.5, 0.5, 0).body = 1;
+  CHECK_FALSE(compiled(scene, Scenario{})->features.bodies);
+}

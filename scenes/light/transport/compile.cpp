@@ -230,8 +230,9 @@ void choose_features(CompiledScene& scene) {
       const CompiledMaterial& material = scene.materials[m];
       f.surfaces |= material.kind != MaterialKind::lambertian || material.image != none_index;
     }
-    f.surfaces |= s.sign != none_index || s.body != 0;
+    f.surfaces |= s.sign != none_index;
   }
+  for (const CompiledEmitter& e : scene.emitters) f.bodies |= e.body != 0;
   f.detectors = !scene.planes.empty() || !scene.counting_planes.empty() ||
                 !scene.volume_groups.empty() || scene.voxels.edge > 0;
 }

@@ -164,6 +164,7 @@ struct Features {
   MediaNeed media = MediaNeed::none;
   bool bands = false;      // more than one
   bool surfaces = false;   // anything other than plain Lambertian reflection
+  bool bodies = false;     // an emitter has a body that its light passes
   bool detectors = false;  // planes, volume groups or voxels
 };
 

@@ -33,7 +33,8 @@ template <class Resolver, class Pane>
 bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& resolver,
                    OwnBody& own, Pane&& pane_met) {
   ray.length = length;
-  if (!scene.features.surfaces) return !resolver.occluded(ray);
+  // An emitter with a body needs the surfaces on the line; others in its scene need them no more.
+  if (!scene.features.surfaces && own.body == 0) return !resolver.occluded(ray);
   for (int panes = 0;
        panes < limits::panes_per_line && own.surfaces_met < limits::own_surfaces_per_line;) {
     const Hit hit = resolver.nearest(ray);

@@ -44,9 +44,10 @@ template <MediaNeed Media>
 std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene,
                                                const GeometryAccess& access, uint64_t seed) {
   const Features& f = scene.features;
-  if (f.bands && f.surfaces) return choose_detectors<Media, true, true>(scene, access, seed);
+  const bool any_surface = f.surfaces || f.bodies;
+  if (f.bands && any_surface) return choose_detectors<Media, true, true>(scene, access, seed);
   if (f.bands) return choose_detectors<Media, true, false>(scene, access, seed);
-  if (f.surfaces) return choose_detectors<Media, false, true>(scene, access, seed);
+  if (any_surface) return choose_detectors<Media, false, true>(scene, access, seed);
   return choose_detectors<Media, false, false>(scene, access, seed);
 }
 

@@ -106,13 +106,19 @@ SceneFeature surfaces(const CompiledScene& scene) {
     if (m.kind != MaterialKind::lambertian) names.push_back(m.name);
   }
   if (!scene.signs.empty()) names.push_back(counted(scene.signs.size(), "sign face"));
-  if (std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
-                  [](const CompiledSurface& s) { return s.body != 0; }))
-    names.emplace_back("bodies that their own luminaires' light passes");
   if (scene.features.surfaces && names.empty()) names.emplace_back("textures");
   return {
       "surfaces other than Lambertian", scene.features.surfaces,
       scene.features.surfaces ? some_of(names) : "all materials are matt and of one colour each"};
+}
+
+SceneFeature bodies(const CompiledScene& scene) {
+  const auto n =
+      static_cast<size_t>(std::count_if(scene.emitters.begin(), scene.emitters.end(),
+                                        [](const CompiledEmitter& e) { return e.body != 0; }));
+  return {"bodies of luminaires", scene.features.bodies,
+          scene.features.bodies ? counted(n, "active emitter") + " whose light passes its own body"
+                                : "no active emitter has one (`body_of`)"};
 }
 
 SceneFeature textures(const CompiledScene& scene) {
@@ -188,9 +194,9 @@ SceneFeature sampling(const CompiledScene& scene) {
 }  // namespace
 
 std::vector<SceneFeature> features_of(const CompiledScene& scene) {
-  return {bands(scene),  groups(scene),   webs(scene),     media(scene),   phases(scene),
-          glow(scene),   surfaces(scene), textures(scene), cells(scene),   patches(scene),
-          voxels(scene), flights(scene),  eyes(scene),     sampling(scene)};
+  return {bands(scene),   groups(scene),   webs(scene),    media(scene),    phases(scene),
+          glow(scene),    surfaces(scene), bodies(scene),  textures(scene), cells(scene),
+          patches(scene), voxels(scene),   flights(scene), eyes(scene),     sampling(scene)};
 }
 
 }  // namespace luxodus

@@ -149,7 +149,7 @@ std::string describe_kernel(const CompiledScene& scene) {
       break;
   }
   text += f.bands ? ", " + std::to_string(scene.bands.count()) + " bands" : ", one band";
-  text += f.surfaces ? ", all surface models" : ", Lambertian surfaces only";
+  text += f.surfaces || f.bodies ? ", all surface models" : ", Lambertian surfaces only";
   text += f.detectors ? ", scores along flights" : ", no scores along flights";
   return text;
 }
