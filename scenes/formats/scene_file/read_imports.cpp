@@ -206,6 +206,7 @@ void place_lamps(KeyReader& keys, const std::vector<ImportedLamp>& lamps, const 
     e.mains_flux = lamp.candela * luminance * solid_angle;
     const auto frame = frame_aiming(transform.point(lamp.at), transform.vector(lamp.direction));
     if (!frame) return keys.problem("file", frame.problem().what);
+    reading.emitter_copies.push_back({reading.scene.emitters.size(), copies.size()});
     for (const glm::dvec3& offset : copies) {
       const std::string wish = import + "." + lamp.name;
       const int times = ++times_used[wish];

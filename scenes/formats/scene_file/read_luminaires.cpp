@@ -263,6 +263,7 @@ double read_flux(KeyReader& keys, Emitter& e) {
 /// Adds the emitter, and its copies as NAME.2, NAME.3 and so on.
 void add_emitter(KeyReader& keys, const Emitter& e, std::span<const glm::dvec3> copies) {
   SceneReading& reading = keys.reading();
+  reading.emitter_copies.push_back({reading.scene.emitters.size(), copies.size()});
   for (size_t i = 0; i < copies.size(); ++i) {
     Emitter copy = e;
     copy.frame.origin += copies[i];
@@ -349,22 +350,19 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
 
 void resolve_bodies(SceneReading& reading) {
   auto& emitters = reading.scene.emitters;
-  // The copies of a luminaire are written in one table, and so stand at one place.
-  using Place = std::pair<std::string, int>;
-  std::map<std::string_view, Place> place_of;
-  std::map<Place, std::set<size_t>> written_at;
-  for (size_t i = 0; i < emitters.size(); ++i) {
-    const Place place{emitters[i].place.file, emitters[i].place.line};
-    place_of.try_emplace(emitters[i].name, place);
-    written_at[place].insert(i);
-  }
+  using Copies = SceneReading::EmitterCopies;
+  std::map<std::string_view, Copies> copies_of;
+  for (const Copies& copies : reading.emitter_copies)
+    for (size_t i = copies.first; i < copies.first + copies.count; ++i)
+      copies_of.try_emplace(emitters[i].name, copies);
   std::map<std::set<size_t>, int> numbers;
   for (Object& object : reading.scene.objects) {
     std::set<size_t> lit;
     for (const std::string& name : object.body_of) {
       if (!reading.require("luminaire or emitter", name, object.place)) continue;
-      if (const auto at = place_of.find(name); at != place_of.end())
-        lit.insert(written_at[at->second].begin(), written_at[at->second].end());
+      const auto at = copies_of.find(name);
+      if (at == copies_of.end()) continue;
+      for (size_t i = 0; i < at->second.count; ++i) lit.insert(at->second.first + i);
     }
     if (lit.empty()) continue;
     const auto [it, fresh] = numbers.try_emplace(lit, static_cast<int>(numbers.size()) + 1);

@@ -67,6 +67,12 @@ class SceneReading {
   };
   std::vector<NamedRoute> routes_named;
 
+  /// An emitter and its copies, which are the next ones in the scene.
+  struct EmitterCopies {
+    size_t first = 0, count = 1;
+  };
+  std::vector<EmitterCopies> emitter_copies;
+
   /// Flights of stairs of objects, before a design is read.
   std::vector<StairFlight> stair_flights;
 

@@ -302,6 +302,18 @@ TEST_CASE("the lamps of a glTF that holds nothing else become emitters", "[forma
   CHECK(spot.frame.axes[2].z == Approx(1));
   CHECK(spot.distribution == Distribution::spot);
   CHECK(spot.mains_flux == Approx(100 * 0.2126 * pi * 0.5));
+  // Each lamp has its own body; the copies of one share it.
+  const auto housed =
+      good(f,
+           "[[import]]\nname = \"i\"\nfile = \"lamps.gltf\"\nunits = \"m\"\nup = \"y\"\n"
+           "[[import.repeat]]\ncount = 2\nstep = [5, 0, 0]\n"
+           "[[object]]\nname = \"shade\"\nshape = \"box\"\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n"
+           "material = \"grey50\"\nbody_of = [\"i.bulb\"]\n");
+  REQUIRE(housed.emitters.size() == 4);
+  const int shade = named(housed.objects, "shade").body;
+  CHECK(shade != 0);
+  for (const Emitter& e : housed.emitters)
+    CHECK(e.body == (e.distribution == Distribution::isotropic ? shade : 0));
 }
 
 TEST_CASE("an imported file becomes objects by part, with materials from the table",
