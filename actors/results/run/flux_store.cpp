@@ -6,6 +6,7 @@
 #include "actors/results/formats/flux_file.hpp"
 #include "actors/results/formats/json_out.hpp"
 #include "actors/results/run/batch_plan.hpp"
+#include "scenes/light/transport/value_scores.hpp"
 
 namespace luxodus {
 
@@ -68,6 +69,7 @@ Json describe_run(const LocalRun& run) {
       {"groups", groups},
       {"total", "128-bit sum, 128-bit sum of squares of (batch score / 2^12), little endian"},
       {"layout", describe_layout(scene.layout)}};
+  if (scene.light_quantum != limits::value_quantum) header["light_quantum"] = scene.light_quantum;
   if (!run.missing().empty()) header["missing"] = run.missing();
   return header;
 }
@@ -148,6 +150,18 @@ Result<void> same(const Json& header, const Json& wanted, const char* key,
                                "without --resume");
 }
 
+/// Scores of light count quanta. Files without this key are of the usual quantum, or older than
+/// quanta that follow the scene; those were all of the usual one.
+Result<void> same_quantum(const Json& header, const CompiledScene& scene,
+                          const SourcePlace& place) {
+  const Json quantum = header.value("light_quantum", Json(limits::value_quantum));
+  if (quantum.is_number() && quantum.get<double>() == scene.light_quantum) return {};
+  return problem_in(place, "this flux counts light in another quantum (" + quantum.dump() +
+                               " here, the run has " + Json(scene.light_quantum).dump() +
+                               "): another version of luxodus has written it, so run it again, "
+                               "without --resume");
+}
+
 }  // namespace
 
 FluxFile flux_of(const LocalRun& run) {
@@ -180,6 +194,7 @@ Result<void> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun&
        {"schema", "scenario", "seed", "scene_hash", "batch_particles", "layout"}) {
     if (auto ok = same(header, wanted, key, place); !ok) return ok.problem();
   }
+  if (auto ok = same_quantum(header, run.scene(), place); !ok) return ok.problem();
   Totals& totals = run.totals();
   const Block* ledger_block = file.find("ledger");
   if (ledger_block == nullptr || ledger_block->bytes.size() != sizeof(EnergyBalance))

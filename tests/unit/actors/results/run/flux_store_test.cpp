@@ -6,6 +6,7 @@
 
 #include "actors/results/formats/flux_file.hpp"
 #include "actors/results/formats/json_out.hpp"
+#include "scenes/light/transport/value_scores.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/cast/process/library_scene.hpp"
 
@@ -65,4 +66,41 @@ TEST_CASE("a flux file with a forged header is rejected, and counts no batch twi
   CHECK(refused([](json& h) { h["groups"] = 7; }).find("source groups") != std::string::npos);
   CHECK(refused([](json& h) { h.erase("groups"); }).find("source groups") != std::string::npos);
   CHECK(refused([](json& h) { h["layout"] = "x"; }).find("another layout") != std::string::npos);
+}
+
+TEST_CASE("flux counted in other quanta of light is rejected, and that of older files goes on",
+          "[flux]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  auto description = std::make_shared<SceneDescription>(*scene->description);
+  for (Emitter& e : description->emitters) e.mains_flux *= 1e9;
+  const auto bright = compile_scene(description, scene->scenario, {1}).value();
+  REQUIRE(scene->light_quantum == limits::value_quantum);
+  REQUIRE(bright->light_quantum > limits::value_quantum);
+  const auto problem_with = [](FluxFile file, const auto& of,
+                               const std::function<void(json&)>& change) {
+    json header = json::parse(file.header_json);
+    change(header);
+    file.header_json = header.dump();
+    LocalRun run(of, 1, 1);
+    const auto taken = take_flux(file, {"flux", 0}, run);
+    return taken.ok() ? std::string() : taken.problem().what;
+  };
+  const auto traced = [](const auto& of) {
+    LocalRun run(of, 1, 1);
+    trace(run, 2);
+    return flux_of(run);
+  };
+  const FluxFile usual = traced(scene), large = traced(bright);
+  // Older files do not state the quantum.
+  CHECK_FALSE(json::parse(usual.header_json).contains("light_quantum"));
+  CHECK(problem_with(usual, scene, [](json&) {}).empty());
+  CHECK(problem_with(large, bright, [](json&) {}).empty());
+  const std::string other = "another quantum";
+  CHECK(problem_with(large, bright, [](json& h) { h.erase("light_quantum"); }).find(other) !=
+        std::string::npos);
+  for (const json& quantum : {json(0x1p-30), json("x"), json(nullptr)}) {
+    INFO(quantum.dump());
+    CHECK(problem_with(usual, scene, [&](json& h) { h["light_quantum"] = quantum; }).find(other) !=
+          std::string::npos);
+  }
 }
