@@ -127,8 +127,10 @@ Result<double> share_of(const GldfProduct& product, const GldfVariant& variant,
     if (!lit_in_emergencies(light)) continue;
     const bool with_chosen = reference.number == chosen.number;
     if (with_chosen && light.alternative != own.alternative) continue;
-    double lumens = rated_lm;
-    if (&reference != &chosen) {
+    double lumens = light.rated_lm.value_or(0);
+    if (&reference == &chosen) {
+      lumens = rated_lm;
+    } else if (!light.rated_lm) {  // only then is its photometric file needed
       const auto rated = rated_of(product, light, {});
       if (!rated)
         return problem_in(product.file,

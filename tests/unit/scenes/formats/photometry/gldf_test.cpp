@@ -218,6 +218,23 @@ TEST_CASE("the lights of a product that are lit in an emergency share its flux b
   CHECK(lumens("d") == Approx(250 * 400 / 1700.0));
 }
 
+TEST_CASE("a light whose flux the container states has its share without a photometric file",
+          "[photometry][gldf]") {
+  Product product;
+  product.attributes = durations;
+  product.emitters =
+      "<Emitter id=\"d\"><FixedLightEmitter emergencyBehaviour=\"Combined\"><PhotometryReference "
+      "photometryId=\"none\"/><RatedLuminousFlux>1500</RatedLuminousFlux></FixedLightEmitter>"
+      "</Emitter>";
+  product.geometry = "<EmitterReference emitterId=\"e\"/><EmitterReference emitterId=\"d\"/>";
+  const auto read = gldf_of(product.container(), "test.gldf");
+  if (!read) FAIL(read.problem().text());
+  const auto luminaire = luminaire_of(read.value(), {"v", "e", 1.0, {}});
+  if (!luminaire) FAIL(luminaire.problem().text());
+  if (!luminaire->emergency_lm) FAIL(luminaire->emergency_lm.problem().text());
+  CHECK(luminaire->emergency_lm.value() == Approx(250 * 1000 / 2500.0));
+}
+
 TEST_CASE("an emitter that a variant refers to several times is several lights",
           "[photometry][gldf]") {
   Product product;
