@@ -322,6 +322,10 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
   std::optional<GldfLuminaire> contained;
   double rated = 0;
   const auto take = [&](const PhotometricFile& file) {
+    if (keys.has("lamp_set") && file.format != "EULUMDAT")
+      keys.problem("lamp_set",
+                   std::string("'lamp_set' belongs to an EULUMDAT file (.ldt); this is ") +
+                       (container ? "a container with " : "") + file.format);
     e.web = file.web;
     e.file = *keys.value("file")->as_text();
     e.product = file.luminaire;
@@ -339,9 +343,6 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
     }
   } else if (path) {
     const auto file = read_photometry(*path, choice.lamp_set, keys.place("file"), keys.reading());
-    if (file && keys.has("lamp_set") && file->format != "EULUMDAT")
-      keys.problem("lamp_set",
-                   "'lamp_set' belongs to an EULUMDAT file (.ldt); this is " + file->format);
     if (file) take(*file);
   }
   read_operation(keys, e, rated, !container, contained ? &*contained : nullptr);

@@ -96,6 +96,10 @@ TEST_CASE("keys for containers are rejected for other files", "[format][gldf]") 
   const std::string problems = all_problems(folder.read(
       "[[luminaire]]\nname = \"a\"\nposition = [0, 0, 2]\nfile = \"lamp.ies\"\nvariant = \"v\"\n"));
   CHECK(problems.find("'variant' belongs to a GLDF container") != std::string::npos);
+  folder.put("a.gldf", container(true));
+  const std::string set = all_problems(folder.read(contained + "lamp_set = 2\n"));
+  CHECK(set.find("scene.toml:5: 'lamp_set' belongs to an EULUMDAT file (.ldt); this is a container "
+                 "with IES") != std::string::npos);
   folder.put("a.gldf", "no container");
   const std::string broken = all_problems(folder.read(contained + lit_in_emergencies));
   CHECK(broken.find("a.gldf: this is no GLDF container") != std::string::npos);
