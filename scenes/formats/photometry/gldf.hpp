@@ -114,8 +114,7 @@ enum class GldfModels { left, read };
 /// Reads a container, in a process of its own. `reading`, where given, receives the progress.
 /// Errors: it cannot be read, is not a ZIP, has no `product.xml`, another version than 1.0, a
 /// document type (entities), a number that cannot be read, names that lead out of it, or more than
-/// the limits. A model that
-/// cannot be read is a fault of that model only.
+/// the limits. A model that cannot be read is a fault of that model only.
 Result<GldfProduct> read_gldf(const std::filesystem::path& path,
                               GldfModels models = GldfModels::left,
                               ReadingShare* reading = nullptr);

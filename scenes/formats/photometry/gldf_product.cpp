@@ -17,6 +17,8 @@ namespace {
 
 using pugi::xml_node;
 
+constexpr double most_lm = 1e8;  // the largest floodlights give 3e5
+
 /// Elements of one kind by id; the first one where an id repeats.
 using ById = std::map<std::string, xml_node>;
 
@@ -122,10 +124,7 @@ class ProductReader {
     return checked(node, name, text_of(node), low, high);
   }
 
-  std::optional<double> flux(xml_node of, const char* name) {
-    constexpr double most_lm = 1e8;  // the largest floodlights give 3e5
-    return number(of, name, 0, most_lm);
-  }
+  std::optional<double> flux(xml_node of, const char* name) { return number(of, name, 0, most_lm); }
 
   // ---- variants --------------------------------------------------------------------------------
 
@@ -170,7 +169,7 @@ class ProductReader {
     for (const xml_node row : table.children("Flux")) {
       const double hours =
           checked(row, "hours of DurationTimeAndFlux", attribute_of(row, "hours"), 0, most_hours);
-      const double lumens = checked(row, "Flux of DurationTimeAndFlux", text_of(row), 0, 1e8);
+      const double lumens = checked(row, "Flux of DurationTimeAndFlux", text_of(row), 0, most_lm);
       if (hours > 0) rows.push_back({hours, lumens});
     }
     return rows;

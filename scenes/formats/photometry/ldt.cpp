@@ -122,7 +122,7 @@ class LdtReader {
   /// With several lamps the file states their total flux; the flux of one lamp only would be half
   /// or less.
   void check_lamps(const LampSet& set) {
-    if (set.lamps >= 2 && absolute_.back() == 0 && set.watts > 0 && set.flux_lm > 0 &&
+    if (set.lamps >= 2 && !is_absolute_set_.back() && set.watts > 0 && set.flux_lm > 0 &&
         set.flux_lm / set.watts < few_lm_per_w)
       warn(line_, shown(set.lamps) + " lamps give " + shown(set.flux_lm) + " lm with " +
                       shown(set.watts) +
@@ -191,7 +191,7 @@ class LdtReader {
       LampSet set;
       const int count = whole("the number of lamps", -ldt_limits::lamps, ldt_limits::lamps);
       // A negative count marks absolute photometry; the flux is then the luminaire's own.
-      absolute_.push_back(count < 0);
+      is_absolute_set_.push_back(count < 0);
       set.lamps = std::abs(count);
       set.type = text("the type of the lamps");
       set.flux_lm = number("the flux of the lamps", 0, ldt_limits::flux_lm);
@@ -218,7 +218,7 @@ class LdtReader {
       return numbers_.fail(sets_line, "there is no lamp set " + std::to_string(chosen + 1) +
                                           " in the file; there are: " + lamp_choices());
     const LampSet& set = out_.lamp_sets[chosen];
-    out_.absolute = absolute_[chosen] != 0;
+    out_.absolute = is_absolute_set_[chosen];
     out_.lamp_flux_lm = set.flux_lm;
     out_.input_watts = set.watts;
     out_.cct_k = colour_temperature_k(set.colour);
@@ -392,8 +392,8 @@ class LdtReader {
   std::string file_;
   PhotometricNumbers numbers_;
   std::optional<int> lamp_set_;
-  std::vector<char> absolute_;  // of each lamp set
-  int line_ = 0;                // lines read so far, which is the number of the last one
+  std::vector<bool> is_absolute_set_;  // by lamp set
+  int line_ = 0;                       // lines read so far, which is the number of the last one
   PhotometricFile out_;
 
   int symmetry_ = 0;

@@ -27,8 +27,8 @@ bool has_tilt_line(std::string_view bytes) {
 
 /// The text without a byte order mark and blanks before it.
 std::string_view from_first_sign(std::string_view bytes) {
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  return bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  const std::string_view text = without_byte_order_mark(bytes);
+  return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
 }
 
 /// What a file is that is neither EULUMDAT nor LM-63, and what to do; none where it may be one.

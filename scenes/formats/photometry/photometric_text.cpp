@@ -79,8 +79,8 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   const SourcePlace place{path.string(), 0};
   const auto size = size_of_regular_file(path);
   if (!size && size.problem().kind == ProblemKind::not_found)
-    return problem_in(place,
-                      "no such photometric file; check the path, it is taken from the scene");
+    return problem_in(place, "no such photometric file; check the path, it is taken from the scene",
+                      ProblemKind::not_found);
   if (!size) return size.problem();
   if (size.value() > max_file_bytes) {
     return problem_in(place,
@@ -89,12 +89,16 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   return read_regular_file(path, max_file_bytes);
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+}
+
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes,
                                                    const std::string& file) {
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
     return problem_in(file, 1, "the text is UTF-16; save it as UTF-8 or Latin-1");
   }
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  bytes = without_byte_order_mark(bytes);
   const bool utf8 = is_utf8(bytes);
   std::vector<std::string> lines;
   size_t start = 0;

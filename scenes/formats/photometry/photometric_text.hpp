@@ -14,9 +14,12 @@
 
 namespace luxodus {
 
-/// Reads all bytes of a file. Errors: it cannot be opened, is not a file, or is larger than any
-/// luminaire's (16 MiB).
+/// Reads all bytes of a file. Errors: `not_found`; it cannot be opened, is not a file, or is larger
+/// than any luminaire's (16 MiB).
 Result<std::string> read_photometric_bytes(const std::filesystem::path& path);
+
+/// The text behind a byte order mark of UTF-8, where there is one.
+std::string_view without_byte_order_mark(std::string_view text);
 
 /// The lines of a text as UTF-8, without line ends: CRLF, LF, CR and CR CR LF end a line; a byte
 /// order mark and a DOS end-of-file character are dropped; bytes that are not UTF-8 are read as

@@ -509,6 +509,7 @@ TEST_CASE("files of other formats are called by their names", "[format][ldt][ies
 TEST_CASE("a path to a missing file is a problem with that path", "[format][ldt]") {
   const auto file = read_photometric_file("nowhere/lamp.ldt");
   REQUIRE_FALSE(file.ok());
+  CHECK(file.problem().kind == ProblemKind::not_found);
   CHECK(file.problem().where.file == "nowhere/lamp.ldt");
   CHECK(file.problem().what.find("no such") != std::string::npos);
 }
