@@ -1,22 +1,17 @@
 // Light is linear: what an eye and a probe receive grows with the flux of a scene, over all fluxes
 // that a scene may have, and so do its errors.
 #include "actors/results/run/local_run.hpp"
+#include "tests/kit/room_texts.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
 namespace {
 
+const std::string one_band_room = "[run]\nmax_bands = 1\n" + test::white_room("[4, 4, 3]");
+
 /// A room with a lamp, a sign that shows only what falls on it, an eye, and a probe.
 std::string room_with(const std::string& flux_lm) {
-  return R"(
-[run]
-max_bands = 1
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [4, 4, 3]
-material = "grey50"
+  return one_band_room + R"(
 [[emitter]]
 name = "lamp"
 shape = "point"
@@ -88,15 +83,7 @@ TEST_CASE("light at eyes and probes is linear in the flux, from nanolumens to te
 TEST_CASE("a luminance beyond the range of a scene's flux is an error, not a smaller one",
           "[light]") {
   // A disc of 1 mm beside a sign of 1 cm, so bright that its flux tells little of its luminance.
-  const std::string text = R"(
-[run]
-max_bands = 1
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [4, 4, 3]
-material = "grey50"
+  const std::string text = one_band_room + R"(
 [[emitter]]
 name = "disc"
 shape = "disc"

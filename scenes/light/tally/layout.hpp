@@ -16,7 +16,7 @@ namespace luxodus {
 enum class ScoreUnit {
   weight,         // carried flux: watts per unit weight
   weight_length,  // flux times path length: watts metre per unit
-  value,          // a physical value, in units of `value_quantum`
+  value,          // a physical value, in quanta (transport/value_scores.hpp, `quantum_of`)
 };
 
 struct TallyBlock {

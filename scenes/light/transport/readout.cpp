@@ -194,8 +194,8 @@ Result<void> Readout::check_range() const {
   const auto refused = [&](const std::string& what) {
     return problem_in(
         d.file, "the light at " + what +
-                    " is beyond what is counted in a scene of this flux: lessen its sources, or "
-                    "move what is measured away from one that is next to it");
+                    " exceeds the largest value that is counted, which follows the flux of all "
+                    "sources: lower the luminance of the source next to it, or move it away");
   };
   for (uint32_t p = 0; p < d.probes.size(); ++p)
     if (is_beyond(scene_.blocks.probes, p)) return refused("probe \"" + d.probes[p].name + "\"");
