@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "actors/results/run/particle_portion.hpp"
 #include "proto/messages.hpp"
 #include "runtime/core/check.hpp"
 #include "scenes/light/transport/birth_order.hpp"
@@ -49,6 +50,10 @@ int64_t portion_for(const PhotonConfig& config, int64_t batch_particles) {
   return std::clamp<int64_t>(open / (4 * static_cast<int64_t>(config.fibers)), 1, config.portion);
 }
 
+/// Paths from eyes after which a fiber lets others run; each has at most limits::eye_events events
+/// of some 1 us.
+constexpr uint64_t paths_between_rests = 8;
+
 }  // namespace
 
 TracingFibers::TracingFibers(const CompiledScene& scene, const GeometryAccess& access,
@@ -69,7 +74,10 @@ TracingFibers::TracingFibers(const CompiledScene& scene, const GeometryAccess& a
               {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene),
                tight_ ? Cleared::given_back : Cleared::kept}},
       planned_(scene) {
-  for (size_t i = 0; i < config.fibers; ++i) tracers_.push_back(make_tracer(scene, access, seed));
+  for (size_t i = 0; i < config.fibers; ++i) {
+    tracers_.push_back(make_tracer(scene, access, seed));
+    tracers_.back()->rest_between_paths([this] { rest_after_path(); });
+  }
   for (OpenBatch& batch : open_)
     batch.scores.reset(scene.layout, tight_ ? Cleared::given_back : Cleared::kept);
   leases_.reserve(config.leases + limits::leases);
@@ -172,7 +180,7 @@ void TracingFibers::trace_portions(BatchTracer& tracer) {
     if (open.failed || open.dropped) {
       // It will not be counted, so the rest of it is skipped.
     } else if (portion->count > 0) {
-      trace_particles(tracer, *portion);
+      if (!trace_particles(tracer, *portion)) return;
       counters_.particles += static_cast<uint64_t>(portion->count);
     } else {
       ++counters_.eye_units;
@@ -185,37 +193,60 @@ void TracingFibers::trace_portions(BatchTracer& tracer) {
     const bool given_out =
         open.next_particle == scene_.batch_particles && open.next_unit == tracer.look_units();
     if (given_out && open.portions_out == 0 && !finish(open)) return;
+    rays_since_rest_ = paths_since_rest_ = 0;
     if (fibers.yield() == Wake::cancelled) return;
   }
 }
 
-void TracingFibers::trace_particles(BatchTracer& tracer, const Portion& portion) {
+/// False: the node ends, and the portion remains unfinished.
+bool TracingFibers::trace_particles(BatchTracer& tracer, const Portion& portion) {
   OpenBatch& open = *portion.batch;
   const uint64_t of_batch = open.batch.first_particle;
   if (open.order.empty())
     return trace_row(tracer, open, of_batch + static_cast<uint64_t>(portion.first), portion.count);
   for (int64_t i = portion.first; i < portion.first + portion.count && !open.failed; ++i) {
-    trace_row(tracer, open, of_batch + open.order[static_cast<size_t>(i)], 1);
+    if (!trace_row(tracer, open, of_batch + open.order[static_cast<size_t>(i)], 1)) return false;
     if (source_ != nullptr && source_->spoilt()) open.failed = true;
   }
+  return true;
 }
 
-/// Traces up to the next sampled particle at once, and that particle alone.
-void TracingFibers::trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count) {
+/// Traces up to the next sampled particle at once, and that particle alone. The rest of a dropped
+/// batch is skipped. False: as of trace_particles.
+bool TracingFibers::trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count) {
   Fibers& fibers = scheduler_.fibers();
   NodeTrace* const trace = config_.trace;
   const uint64_t end = first + static_cast<uint64_t>(count);
-  while (first < end) {
+  while (first < end && !open.dropped) {
     const uint64_t sampled = trace == nullptr ? end : trace->next_wanted(first);
     const uint64_t stop = sampled == first ? first + 1 : std::min(sampled, end);
+    const uint64_t before = open.scores.balance.rays;
     fibers.set_subject(first);
     if (sampled == first)
       trace->begin(TraceKind::particle, first, static_cast<uint64_t>(open.batch.number));
-    tracer.trace(open.batch.group, first, static_cast<int64_t>(stop - first), open.scores);
+    const int64_t traced =
+        trace_portion(tracer, open.batch.group, first, static_cast<int64_t>(stop - first),
+                      limits::rays_per_portion - rays_since_rest_, open.scores);
     if (sampled == first)
       trace->end(TraceKind::particle, first, static_cast<uint64_t>(open.batch.number));
-    first = stop;
+    first += static_cast<uint64_t>(traced);
+    if (!rest_after(open.scores.balance.rays - before)) return false;
   }
+  return true;
+}
+
+/// Yields if enough rays were traced since the last time. False: the node ends.
+bool TracingFibers::rest_after(uint64_t rays) {
+  rays_since_rest_ += rays;
+  if (rays_since_rest_ < limits::rays_per_portion) return true;
+  rays_since_rest_ = 0;
+  return scheduler_.fibers().yield() != Wake::cancelled && !ending_;
+}
+
+void TracingFibers::rest_after_path() {
+  if (++paths_since_rest_ < paths_between_rests) return;
+  paths_since_rest_ = 0;
+  rest();
 }
 
 std::optional<TracingFibers::Portion> TracingFibers::next_portion() {

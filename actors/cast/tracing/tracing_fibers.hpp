@@ -89,8 +89,10 @@ class TracingFibers final : public LeasedWork {
 
   void trace_until_the_end(BatchTracer& tracer);
   void trace_portions(BatchTracer& tracer);
-  void trace_particles(BatchTracer& tracer, const Portion& portion);
-  void trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count);
+  bool trace_particles(BatchTracer& tracer, const Portion& portion);
+  bool trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count);
+  bool rest_after(uint64_t rays);
+  void rest_after_path();
   std::optional<Portion> next_portion();
   OpenBatch* open_next();
   void count_totals();
@@ -128,6 +130,8 @@ class TracingFibers final : public LeasedWork {
   std::vector<WaitingLease> leases_;  // not begun, the oldest first
   WaitList work_;                     // fibers without work
   bool ending_ = false;
+  uint64_t rays_since_rest_ = 0;   // of particles; a bound, since several fibers count
+  uint64_t paths_since_rest_ = 0;  // from eyes
   Counters counters_;
   Histogram batch_time_;  // from opening to merging
 };

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "actors/results/run/particle_portion.hpp"
 #include "scenes/light/transport/readout.hpp"
 
 namespace luxodus {
@@ -40,9 +41,9 @@ Batch ParticleWorker::batch_of_groups(const BatchRange& batch) const {
 
 bool ParticleWorker::go_on() {
   if (traced_ < scene_.batch_particles) {
-    const int64_t count = std::min(portion_, scene_.batch_particles - traced_);
-    tracer_->trace(batch_.group, batch_.first_particle + static_cast<uint64_t>(traced_), count,
-                   scores_);
+    const int64_t count = trace_portion(
+        *tracer_, batch_.group, batch_.first_particle + static_cast<uint64_t>(traced_),
+        std::min(portion_, scene_.batch_particles - traced_), limits::rays_per_portion, scores_);
     counters_.particles += static_cast<uint64_t>(count);
     traced_ += count;
   } else {

@@ -23,7 +23,8 @@ enum class BatchNumbers {
 
 class ParticleWorker final : public BatchWorker {
  public:
-  /// A portion is at most `portion` particles, or one unit of paths from the eye.
+  /// A portion is at most `portion` particles and limits::rays_per_portion rays, or one unit of
+  /// paths from the eye.
   /// Requires: portion >= 1; what is referred to outlives this.
   ParticleWorker(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
                  BatchNumbers numbers, int64_t portion,

@@ -5,6 +5,7 @@
 // own. Thread rule: one EyeScores per thread or fiber.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "scenes/light/geometry/real.hpp"
@@ -45,6 +46,9 @@ class EyeScores {
     return static_cast<uint32_t>(3 * scene_.eye_targets.size() + scene_.description->probes.size());
   }
 
+  /// Has score() call `rest` after every path.
+  void rest_between_paths(std::function<void()> rest) { rest_ = std::move(rest); }
+
   /// Traces one batch's eye paths for one unit into its value bins. Requires: unit < units().
   void score(int64_t batch, uint32_t unit, BatchScores& scores) {
     const auto paths = static_cast<uint64_t>(scene_.eye_paths_per_batch);
@@ -62,6 +66,7 @@ class EyeScores {
         look_at_sign(scene_.eye_targets[unit / 3], unit % 3);
       else
         look_around_probe(unit - parts);
+      if (rest_) rest_();
     }
     if (unit < parts)
       store_sign(scene_.eye_targets[unit / 3].first_bin + unit % 3, scores);
@@ -287,6 +292,7 @@ class EyeScores {
   SobolSet set_;
   const bool by_group_;
   std::vector<FaceTexels> texels_;
+  std::function<void()> rest_;
 
   // Sums over the paths of one bin and batch.
   int64_t paths_ = 0;

@@ -40,6 +40,9 @@ class ResolverBatchTracer final : public BatchTracer {
   void look(int64_t batch, uint32_t unit, BatchScores& scores) override {
     eyes_.score(batch, unit, scores);
   }
+  void rest_between_paths(std::function<void()> rest) override {
+    eyes_.rest_between_paths(std::move(rest));
+  }
 
  private:
   std::unique_ptr<ParticleBatches> particles_;

@@ -3,6 +3,7 @@
 // fiber.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ class BatchTracer {
   virtual uint32_t look_units() const = 0;
   /// Traces the eye paths of one unit into `scores`.
   virtual void look(int64_t batch, uint32_t unit, BatchScores& scores) = 0;
+  /// Has look() call `rest` after every path. In near-white rooms a unit takes seconds, and a fiber
+  /// must let others run meanwhile.
+  virtual void rest_between_paths(std::function<void()> /*rest*/) {}
 };
 
 /// The kernel for the scene's features. All references must outlive it.

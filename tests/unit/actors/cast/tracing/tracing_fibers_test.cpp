@@ -1,0 +1,107 @@
+// Photon-threads let others run by the work they have done: a particle of a near-white room may
+// have a million rays. A tracer that only counts plays the long histories.
+#include "actors/cast/tracing/tracing_fibers.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <utility>
+
+#include "actors/results/run/particle_portion.hpp"
+#include "tests/kit/lone_actor.hpp"
+#include "tests/unit/actors/cast/process/library_scene.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// What all tracers have counted, and the most of it between two runs of another fiber.
+struct Work {
+  uint64_t rays = 0, paths = 0;
+  uint64_t most_rays = 0, most_paths = 0;
+};
+
+struct CountingTracer final : BatchTracer {
+  CountingTracer(Work& of, uint64_t each) : work(of), rays_of_particle(each) {}
+  void trace(int, uint64_t, int64_t count, BatchScores& scores) override {
+    const uint64_t rays = static_cast<uint64_t>(count) * rays_of_particle;
+    scores.balance.particles += static_cast<uint64_t>(count);
+    scores.balance.rays += rays;
+    work.rays += rays;
+  }
+  uint32_t look_units() const override { return 1; }
+  void look(int64_t, uint32_t, BatchScores&) override {
+    for (int path = 0; path < 1000; ++path) {
+      ++work.paths;
+      rest();
+    }
+  }
+  void rest_between_paths(std::function<void()> to_call) override { rest = std::move(to_call); }
+
+  Work& work;
+  const uint64_t rays_of_particle;
+  std::function<void()> rest;
+};
+
+struct DonePort final : LeasePort {
+  void want_leases(size_t) override {}
+  void leases_done(std::span<const uint64_t> leases) override { done += leases.size(); }
+  bool has_room_for(size_t) const override { return true; }
+  void lease_failed(uint64_t, int64_t) override { FAIL("no batch fails"); }
+  bool give_back(std::span<const uint64_t>) override { return true; }
+  void return_leases() override {}
+  void want_room() override {}
+  bool room_to_come() const override { return false; }
+  size_t flush_bytes() const override { return 0; }
+  void give_up(const Problem& why) override { FAIL(why.what); }
+  void thread_failed(const std::exception_ptr&) override { FAIL("a photon-thread failed"); }
+  size_t done = 0;
+};
+
+/// Traces two batches on some photon-threads, beside a fiber that is always ready.
+Work traced(size_t fibers, uint64_t rays_of_particle) {
+  const auto scene = scene_of("empty_room", "", 1);
+  test::LoneNode node;
+  Work work;
+  DonePort port;
+  PhotonConfig config;
+  config.fibers = fibers;
+  TracingFibers tracing(*scene, GeometryAccess{}, 1, config, node.scheduler, port,
+                        [&](const CompiledScene&, const GeometryAccess&, uint64_t) {
+                          return std::make_unique<CountingTracer>(work, rays_of_particle);
+                        });
+  const auto watch = [&] {
+    Work last;
+    do {
+      work.most_rays = std::max(work.most_rays, work.rays - last.rays);
+      work.most_paths = std::max(work.most_paths, work.paths - last.paths);
+      last = work;
+    } while (node.scheduler.fibers().yield() != Wake::cancelled);
+  };
+  REQUIRE(node.scheduler.fibers().start("watch", watch));
+  tracing.start();
+  tracing.add(7, 0);
+  tracing.add(8, 1);
+  while (port.done < 2) node.scheduler.turn();
+  const auto particles = 2 * static_cast<uint64_t>(scene->batch_particles);
+  CHECK(tracing.counters().particles == particles);
+  CHECK(tracing.counters().rays == particles * rays_of_particle);
+  node.end_fibers();
+  return work;
+}
+
+}  // namespace
+
+TEST_CASE("photon-threads let others run after a bounded number of rays and of paths from eyes",
+          "[tracing]") {
+  for (const size_t fibers : {1, 3}) {
+    INFO(fibers << " fibers");
+    const Work white = traced(fibers, 1'000'000);
+    CHECK(white.most_rays <= fibers * 1'000'000);
+    CHECK(white.most_paths <= fibers * 8);
+    // Portions of usual rooms stay whole.
+    const Work usual = traced(fibers, 10);
+    CHECK(usual.most_rays >= 1000);
+    CHECK(usual.most_rays <= fibers * limits::rays_per_portion);
+  }
+}
