@@ -148,7 +148,8 @@ class ItemVolumes {
     const auto scale = scale_of(graph_.follow(item, 1));
     if (!scale || depth > 3) return std::nullopt;
     const auto source = of_representation(graph_.follow(item, 0).reference(1), depth + 1);
-    return source ? std::optional(std::abs(*scale * *scale * *scale) * *source) : std::nullopt;
+    const double volume = std::abs(*scale * *scale * *scale) * source.value_or(0);
+    return source && std::isfinite(volume) ? std::optional(volume) : std::nullopt;
   }
 
   StepGraph graph_;

@@ -76,7 +76,9 @@ class Solids {
       return std::nullopt;
     for (const glm::dvec3& p : out->positions)
       if (!is_finite(p)) return std::nullopt;
-    if (signed_volume_of(*out) < 0) flip(*out);
+    const double volume = signed_volume_of(*out);
+    if (!std::isfinite(volume)) return std::nullopt;
+    if (volume < 0) flip(*out);
     remembered_ += out->triangles.size();
     if (depth > 0 && remembered_ <= limits::remembered_triangles) known_.emplace(item.id(), *out);
     return out;
