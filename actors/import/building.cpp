@@ -559,6 +559,11 @@ void Assembly::take_light(const IfcProduct& p, BuildingFixture& fixture) {
     return;
   }
   if (light.planes.empty()) return;
+  if (light.degrees_by_size)
+    out_.notes.push_back(
+        fmt::format("the angles of the intensities of #{} (\"{}\", {}) are read as degrees: in "
+                    "radians, the unit of the model, they would exceed a full circle",
+                    p.id, fixture.name, p.guid));
   auto text = ies_text_of(light, fixture.type);
   if (text)
     fixture.photometry = std::move(text).value();

@@ -34,23 +34,40 @@ double degrees_of(double angle, double radian) {
   return std::round(angle * degrees * 100) / 100;
 }
 
+/// The unit of the angles [rad]. Many programs state the radian for the whole model and write these
+/// angles in degrees: an angle beyond a full circle is in degrees.
+double unit_of_angles(const std::vector<IfcLightPlane>& planes, double stated_radian,
+                      bool& by_size) {
+  double largest = 0;
+  for (const IfcLightPlane& plane : planes) {
+    largest = std::max(largest, plane.angle_deg);
+    for (const double gamma : plane.gammas_deg) largest = std::max(largest, gamma);
+  }
+  constexpr double full_circle = 2 * std::numbers::pi, rounding = 1e-3, largest_deg = 360;
+  by_size = stated_radian == 1 && largest > full_circle + rounding && largest <= largest_deg;
+  return by_size ? std::numbers::pi / 180 : stated_radian;
+}
+
 void read_planes(StepGraph& graph, const StepNode& distribution, const IfcLightUnits& units,
                  IfcLightSource& light) {
   light.type = distribution.word(0);
   light.knows_angles = units.angle_radian.has_value();
-  const double radian = units.angle_radian.value_or(1);
   size_t intensities = 0;
   for (const uint64_t id : distribution.references(1)) {
     const StepNode data = graph.node(id);
-    IfcLightPlane plane{degrees_of(data.number(0).value_or(0), radian), data.numbers(1),
-                        data.numbers(2)};
-    for (double& gamma : plane.gammas_deg) gamma = degrees_of(gamma, radian);
+    IfcLightPlane plane{data.number(0).value_or(0), data.numbers(1), data.numbers(2)};
     intensities += plane.intensities.size();
     if (intensities > limits::ifc_intensities) {
       light.planes.clear();
       return;
     }
     light.planes.push_back(std::move(plane));
+  }
+  const double radian =
+      unit_of_angles(light.planes, units.angle_radian.value_or(1), light.degrees_by_size);
+  for (IfcLightPlane& plane : light.planes) {
+    plane.angle_deg = degrees_of(plane.angle_deg, radian);
+    for (double& gamma : plane.gammas_deg) gamma = degrees_of(gamma, radian);
   }
   std::stable_sort(
       light.planes.begin(), light.planes.end(),

@@ -36,6 +36,7 @@ struct IfcLightSource {
   std::string document;  // name of the photometric file that it names; "" where none
   std::optional<double> flux_lm;
   bool knows_angles = true;           // whether the model states the unit of its plane angles
+  bool degrees_by_size = false;       // it states the radian, but its angles exceed a full circle
   std::vector<IfcLightPlane> planes;  // upwards by angle; empty where the model has none
   std::string type;                   // TYPE_C of the distribution
 };
