@@ -9,36 +9,45 @@ namespace luxodus {
 
 namespace {
 
-/// Distance of a value from its limit at which a verdict is given, in standard errors.
-constexpr double sure = 2;
 /// A sign of which less than the first share is visible is hidden. Up to the second share, light of
 /// the obstacle is mixed with that of the sign, and no verdict is given.
 constexpr double hidden_share = 0.02, whole_share = 0.95;
+/// Reaches end here [m].
+constexpr double farthest_reach_m = 1000;
 
 /// Visibility level, with its standard error, of a difference from a background, both seen through
-/// a veil.
+/// a veil. An error that may turn a brighter target into a darker one counts as that of a darker
+/// one, whose threshold is lower.
 Uncertain level(const Uncertain& difference, const Uncertain& background, double veil,
-                double size_arcmin, const Eye& eye) {
+                double size_arcmin, const SightRules& rules) {
   if (!(size_arcmin > 0)) return {};
   const auto at = [&](double by, double under) {
-    return visibility_level(under + by, under, size_arcmin, eye);
+    return visibility_level(under + by, under, size_arcmin, rules.eye);
   };
   const double under = background.value + veil;
   const double value = at(difference.value, under);
-  const double by_chance = at(difference.error, under);
-  // The eye adapts to the background, so its error changes the threshold as well.
-  return {value, std::hypot(by_chance, at(difference.value, under + background.error) - value)};
+  const bool brighter = difference.value > rules.sure_errors * difference.error;
+  const double by_chance = at(brighter ? difference.error : -difference.error, under);
+  // The eye adapts to the background, so its error changes the threshold as well. It counts by what
+  // as many errors as a verdict needs would change, to whichever side that is more.
+  const double off = rules.sure_errors * background.error;
+  const double brighter_ground = at(difference.value, under + off);
+  const double darker_ground = under > 0 ? at(difference.value, under / (1 + off / under)) : value;
+  const double by_ground =
+      off > 0 ? std::max(std::abs(brighter_ground - value), std::abs(darker_ground - value)) /
+                    rules.sure_errors
+              : 0;
+  return {value, std::hypot(by_chance, by_ground)};
 }
 
-Uncertain minus(const Uncertain& a, const Uncertain& b) {
-  return {a.value - b.value, std::hypot(a.error, b.error)};
+bool surely_above(const Uncertain& level, double limit, double sure_errors) {
+  return level.value - sure_errors * level.error >= limit;
 }
-
-bool surely_above(const Uncertain& level, double limit) {
-  return level.value - sure * level.error >= limit;
+bool surely_below(const Uncertain& level, double limit, double sure_errors) {
+  return level.value + sure_errors * level.error < limit;
 }
-bool surely_below(const Uncertain& level, double limit) {
-  return level.value + sure * level.error < limit;
+bool surely_seen(const Sight& sight) {
+  return surely_above(sight.seeing_level, sight.seen_from, sight.sure_errors);
 }
 
 bool has_legend(const SignFace& face) {
@@ -46,28 +55,33 @@ bool has_legend(const SignFace& face) {
          std::count(face.colour.begin(), face.colour.end(), SignColour::green) > 0;
 }
 
-/// Whether the face is certainly not seen: its pattern is below the threshold, and so is its
-/// silhouette, or the silhouette is not significant although its error is below the threshold.
-bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
-  const bool no_silhouette =
-      surely_below(silhouette, level_seen) ||
-      (silhouette.value < sure * silhouette.error && silhouette.error <= level_seen);
-  return surely_below(pattern, level_seen) && no_silhouette;
-}
+/// The levels of a view, and what is certain of them.
+struct Levels {
+  Uncertain reading, pattern, silhouette;
+  double sure_errors, seen_from;
+
+  bool read() const { return surely_above(reading, level_read, sure_errors); }
+  bool unread() const { return surely_below(reading, level_read, sure_errors); }
+  bool seen() const {
+    return surely_above(pattern, seen_from, sure_errors) ||
+           surely_above(silhouette, seen_from, sure_errors);
+  }
+  bool unseen() const {
+    return surely_below(pattern, seen_from, sure_errors) &&
+           surely_below(silhouette, seen_from, sure_errors);
+  }
+};
 
 /// The verdicts that remain possible, the better one first.
-RemarkId open_between(const Uncertain& reading, const Uncertain& pattern,
-                      const Uncertain& silhouette) {
-  const bool may_be_read = !surely_below(reading, level_read);
-  const bool seen = surely_above(pattern, level_seen) || surely_above(silhouette, level_seen);
-  if (!may_be_read) return RemarkId::visible_or_invisible;
-  return seen ? RemarkId::legible_or_not : RemarkId::legible_or_invisible;
+RemarkId open_between(const Levels& levels) {
+  if (levels.unread()) return RemarkId::visible_or_invisible;
+  return levels.seen() ? RemarkId::legible_or_not : RemarkId::legible_or_invisible;
 }
 
 /// Limits the verdict on a sign that would be legible, or may be, by its light alone.
 void judge_in_irritant_smoke(Sight& sight) {
   const bool undecided = sight.verdict == SightVerdict::undecided;
-  if (undecided && !surely_above(sight.seeing_level, level_seen)) {
+  if (undecided && !surely_seen(sight)) {
     sight.reason = remark(RemarkId::visible_or_invisible);
   } else if (undecided || sight.verdict == SightVerdict::legible) {
     sight.verdict = SightVerdict::visible;
@@ -75,25 +89,32 @@ void judge_in_irritant_smoke(Sight& sight) {
   }
 }
 
+double extinction_of(const SignView& view, const SignLook& look) {
+  const double passed = std::clamp(look.transmission, 1e-300, 1.0);
+  return view.distance_m > 0 ? -std::log(passed) / view.distance_m : 0;
+}
+
 /// The verdict by the light that reaches the eye.
-void judge_by_light(Sight& sight, const SignView& view, const SignLook& look, const Eye& eye) {
+void judge_by_light(Sight& sight, const SignView& view, const SignLook& look,
+                    const SightRules& rules) {
   const double whole = std::sqrt(view.width_arcmin * view.height_arcmin);
   const double veil = look.veil_cd_m2;
-  const Uncertain pattern = level(look.difference, look.ground, veil, whole, eye);
-  const Uncertain silhouette =
-      level(minus(look.face, look.surround), look.surround, veil, whole, eye);
-  sight.reading_level = level(look.difference, look.ground, veil, view.detail_arcmin, eye);
-  sight.seeing_level = pattern.value >= silhouette.value ? pattern : silhouette;
-  const bool seen = surely_above(pattern, level_seen) || surely_above(silhouette, level_seen);
-  if (surely_above(sight.reading_level, level_read)) {
+  const Levels levels{level(look.difference, look.ground, veil, view.detail_arcmin, rules),
+                      level(look.difference, look.ground, veil, whole, rules),
+                      level(look.silhouette, look.surround, veil, whole, rules), rules.sure_errors,
+                      rules.seen_from()};
+  sight.reading_level = levels.reading;
+  sight.seeing_level =
+      levels.pattern.value >= levels.silhouette.value ? levels.pattern : levels.silhouette;
+  if (levels.read()) {
     sight.verdict = SightVerdict::legible;
-  } else if (unseen(pattern, silhouette)) {
+  } else if (levels.unseen()) {
     sight.verdict = SightVerdict::invisible;
-  } else if (surely_below(sight.reading_level, level_read) && seen) {
+  } else if (levels.unread() && levels.seen()) {
     sight.verdict = SightVerdict::visible;
   } else {
     sight.verdict = SightVerdict::undecided;
-    sight.reason = remark(open_between(sight.reading_level, pattern, silhouette));
+    sight.reason = remark(open_between(levels));
   }
 }
 
@@ -120,9 +141,10 @@ const char* name_of(SightVerdict verdict) {
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
                   const SightRules& rules) {
   Sight sight;
+  sight.sure_errors = rules.sure_errors;
+  sight.seen_from = rules.seen_from();
   sight.viewing = viewing_distance(sign, view);
-  const double passed = std::clamp(look.transmission, 1e-300, 1.0);
-  sight.extinction = view.distance_m > 0 ? -std::log(passed) / view.distance_m : 0;
+  sight.extinction = extinction_of(view, look);
   const double constant = jin_constant(sign.lighting);
   sight.jin_m = jin_distance_m(constant, sight.extinction);
   sight.jin_legible = view.distance_m <= sight.jin_m;
@@ -138,17 +160,51 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
     sight.reason = remark(RemarkId::one_colour);
     return sight;
   }
-  judge_by_light(sight, view, look, rules.eye);
+  judge_by_light(sight, view, look, rules);
   sight.stings = rules.irritant_smoke && sight.extinction >= irritant_from &&
                  view.distance_m > irritant_distance_m(constant, sight.extinction);
   if (sight.stings) judge_in_irritant_smoke(sight);
   return sight;
 }
 
+Reach reach_of(const SignView& view, const SignLook& look, const SightRules& rules) {
+  const double extinction = extinction_of(view, look);
+  const double whole = std::sqrt(view.width_arcmin * view.height_arcmin);
+  /// At this distance, instead of that of the view.
+  const auto level_at = [&](double distance, const Uncertain& difference,
+                            const Uncertain& background, double size_arcmin) {
+    const double arrives = std::exp(-extinction * (distance - view.distance_m));
+    return level({difference.value * arrives, 0}, {background.value, 0}, look.veil_cd_m2,
+                 size_arcmin * view.distance_m / distance, rules)
+        .value;
+  };
+  const auto farthest = [&](const auto& level, double limit) {
+    double near = 0, far = farthest_reach_m;
+    if (level(far) >= limit) return far;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = (near + far) / 2;
+      (level(middle) >= limit ? near : far) = middle;
+    }
+    return near;
+  };
+  const auto pattern_at = [&](double size_arcmin) {
+    return [&, size_arcmin](double distance) {
+      return level_at(distance, look.difference, look.ground, size_arcmin);
+    };
+  };
+  const auto silhouette = [&](double distance) {
+    return level_at(distance, look.silhouette, look.surround, whole);
+  };
+  if (!(view.distance_m > 0)) return {};
+  return {farthest(pattern_at(view.detail_arcmin), level_read),
+          std::max(farthest(pattern_at(whole), rules.seen_from()),
+                   farthest(silhouette, rules.seen_from()))};
+}
+
 bool may_be_read(const Sight& sight) {
   if (sight.verdict == SightVerdict::legible) return true;
   return sight.verdict == SightVerdict::undecided && !sight.stings &&
-         !surely_below(sight.reading_level, level_read);
+         !surely_below(sight.reading_level, level_read, sight.sure_errors);
 }
 
 double error_of_level_beyond(const SignLook& first, const SignLook& other, const SignLook& beyond,
@@ -179,7 +235,7 @@ bool is_worse(const Sight& a, const Sight& b) {
       case SightVerdict::legible:
         return 0;
       case SightVerdict::undecided:
-        return surely_above(sight.seeing_level, level_seen) ? 1 : 3;
+        return surely_seen(sight) ? 1 : 3;
       case SightVerdict::visible:
         return 2;
       case SightVerdict::invisible:

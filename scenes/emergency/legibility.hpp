@@ -1,7 +1,7 @@
 // Whether a person reads a sign, judged from the luminances that arrive at the eye: the verdict of
-// the reality mode. A verdict is given only if the value is two standard errors away from the
-// limit. It says what a person can read who looks at the sign, not whether the sign is noticed.
-// Pure functions; any thread.
+// the reality mode. A verdict is given only if the value is far enough away from the limit, in
+// standard errors. It says what a person can read who looks at the sign, not whether the sign is
+// noticed. Pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -25,6 +25,9 @@ struct SignLook {
   /// Luminance of the legend minus that of the ground, at the eye, without light that the smoke in
   /// front of them scatters into the eye: it is the same for both, and would only add its noise.
   Uncertain difference;
+  /// Mean luminance of the whole face minus that of its surround, likewise without the light that
+  /// smoke up to the face scatters into the eye.
+  Uncertain silhouette;
   Uncertain face;            // mean luminance of the whole face
   double visible_share = 1;  // share of the face that nothing solid hides
   double transmission = 1;   // share of light that smoke between sign and eye lets pass
@@ -47,17 +50,43 @@ struct Sight {
   bool jin_legible = false;
   bool stings =
       false;  // irritant smoke makes reading impossible at this distance, whatever the light
-  ViewingDistance viewing;  // distance by the code's rule
+  ViewingDistance viewing;        // distance by the code's rule
+  double sure_errors = 2;         // as in SightRules
+  double seen_from = level_seen;  // the level from which the face is seen
 };
 
 struct SightRules {
   Eye eye;
   bool irritant_smoke = false;
+  /// Distance of a value from its limit at which a verdict is given, in standard errors.
+  double sure_errors = 2;
+  /// People do not know where the sign is: see unknown_place_contrast.
+  bool place_unknown = false;
+
+  double seen_from() const;
 };
+
+/// How many times the contrast of a sign of known place people need to find one of unknown place:
+/// 0.05 to 0.10 instead of 0.01 to 0.02. T. Jin, Bulletin of the Fire Prevention Society of Japan
+/// 22 (1972) 11-15, as quoted by pyFDS-Evac (documentation, "Visibility").
+inline constexpr double unknown_place_contrast = 5;
+
+inline double SightRules::seen_from() const {
+  return level_seen * (place_unknown ? unknown_place_contrast : 1);
+}
 
 /// Requires: a view in which a face is turned to the eye.
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
                   const SightRules& rules);
+
+/// Distances along the line of sight within which a legend is read and a face is seen [m].
+struct Reach {
+  double read_m = 0, seen_m = 0;
+};
+
+/// As far as this look tells: with its luminances and the mean extinction of its line. Legend and
+/// ground lose contrast by Beer's law; the ground and the veil before it keep their luminances.
+Reach reach_of(const SignView& view, const SignLook& look, const SightRules& rules);
 
 /// Whether the sign is read, or the verdict is undecided and it may be read.
 bool may_be_read(const Sight& sight);

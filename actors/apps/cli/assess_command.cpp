@@ -40,6 +40,7 @@ struct AssessCommandOptions {
   std::string scene;
   std::string out;
   AssessOptions assess;
+  std::string place = "known";
   int nodes = 0;
   std::vector<std::string> at;
   bool codes_alone = false;
@@ -131,6 +132,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   job.report = options.report;
   install_interrupt_handler();
   job.options.reality = !options.codes_alone;
+  job.options.place_unknown = options.place == "unknown";
   const auto nodes = nodes_that_trace(options.nodes);
   job.options.executor = nodes.get();
   return assess_into(job);
@@ -249,6 +251,12 @@ Command assess_command() {
             &o->assess.smoke_factors,
             "Factors of a sweep: signs are assessed again with all smoke times each of them",
             {.range = Range{0, 1e6}, .comma_separated = true}},
+           {"--place",
+            &o->place,
+            "Whether people know where the signs are; a sign of unknown place is seen at 5 times "
+            "the "
+            "contrast",
+            {.choices = {"known", "unknown"}}},
            {"--codes-alone", &o->codes_alone,
             "Assessment by the codes only: no smoke, no "
             "reflections"},

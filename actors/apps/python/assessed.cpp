@@ -104,8 +104,8 @@ void add_assessing(py::class_<OpenScene>& scene) {
       "assess",
       [](const OpenScene& s, const std::string& scenario, std::vector<std::string> rules,
          std::vector<std::string> deviations, uint64_t seed, int threads, int nodes, int rounds,
-         bool codes_alone, std::vector<double> smoke_factors, const std::vector<double>& times_s,
-         const py::object& progress) {
+         bool codes_alone, bool place_known, std::vector<double> smoke_factors,
+         const std::vector<double>& times_s, const py::object& progress) {
         AssessOptions options;
         options.scenario = scenario;
         options.rules = std::move(rules);
@@ -114,6 +114,7 @@ void add_assessing(py::class_<OpenScene>& scene) {
         options.threads = threads;
         options.rounds = rounds;
         options.reality = !codes_alone;
+        options.place_unknown = !place_known;
         options.smoke_factors = std::move(smoke_factors);
         return assess_scene(s, std::move(options), nodes, times_s, progress);
       },
@@ -121,13 +122,15 @@ void add_assessing(py::class_<OpenScene>& scene) {
       py::arg("deviations") = std::vector<std::string>(), py::arg("seed") = 1,
       py::arg("threads") = default_threads(), py::arg("nodes") = 0,
       py::arg("rounds") = AssessOptions().rounds, py::arg("codes_alone") = false,
-      py::arg("smoke_factors") = std::vector<double>(), py::arg("times_s") = std::vector<double>(),
-      py::arg("progress") = py::none(),
+      py::arg("place_known") = true, py::arg("smoke_factors") = std::vector<double>(),
+      py::arg("times_s") = std::vector<double>(), py::arg("progress") = py::none(),
       "Assesses signs and escape routes and returns an Assessment.\n\n"
       "scenario: by name; else the one in emergency operation, with smoke where any has it.\n"
       "rules, deviations: names of rule sets and national deviations; else those of the scene.\n"
       "rounds: largest number of rounds of paths for what is undecided.\n"
       "codes_alone: no smoke and no reflections.\n"
+      "place_known: whether people know where the signs are; else a sign is seen at 5 times the\n"
+      "contrast.\n"
       "smoke_factors: signs are assessed again with all smoke times each of them.\n"
       "times_s: of the states of a scene that changes in time [s]; else those of [time].\n"
       "progress: a callable, called on this thread with what and share. Where it returns False the "

@@ -84,19 +84,20 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
     out.warnings.push_back({scenario->place, remark(RemarkId::dark_operation)});
   for (const Remark& one : out.state.warnings) out.warnings.push_back({scenario->place, one});
   out.seed = options.seed;
+  out.place_unknown = options.place_unknown;
   out.scene_hash = scene->content_hash;
   progress("inspecting the scene", 0);
   if (auto ok = inspected(scene, scenario.value(), options.threads, out); !ok) return ok.problem();
   out.levels = plan_levels(*scene, scenario.value());
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
+  const AssessOptions each = options.one_of(1 + options.smoke_factors.size());
   if (options.reality)
-    if (auto ok = assess_sights(*scene, scenario.value(), {}, options, interrupt, progress, out);
-        !ok)
+    if (auto ok = assess_sights(*scene, scenario.value(), {}, each, interrupt, progress, out); !ok)
       return ok.problem();
   for (const double factor : options.smoke_factors) {
     Assessment at_density;
-    if (auto ok = assess_sights(*scene, scenario.value(), {factor, {}, false}, options, interrupt,
+    if (auto ok = assess_sights(*scene, scenario.value(), {factor, {}, false}, each, interrupt,
                                 progress, at_density);
         !ok)
       return ok.problem();

@@ -10,6 +10,7 @@
 
 #include "actors/judge/assess/judged_state.hpp"
 #include "actors/judge/assess/line_of_sight.hpp"
+#include "actors/judge/assess/wrong_verdicts.hpp"
 #include "actors/judge/inspect/inspect.hpp"
 #include "actors/judge/record/assessment_record.hpp"
 #include "actors/results/run/run_executor.hpp"
@@ -41,6 +42,19 @@ struct AssessOptions {
   /// Selects views to judge before their light is known; empty: all views.
   std::function<bool(const SightRow& view)> wanted = {};
   std::vector<double> smoke_factors = {};  // for a sweep: factors on the extinction of all smoke
+  bool place_unknown = false;              // as in SightRules
+  /// Expected number of verdicts on views that noise makes wrong, at most.
+  double wrong_verdicts = limits::wrong_verdicts;
+  /// Distance of a value from its limit at which a verdict is given, in standard errors; none: as
+  /// small as wrong_verdicts allows.
+  std::optional<double> sure_errors = {};
+
+  /// The options of one of several parts of a report.
+  AssessOptions one_of(size_t parts) const {
+    AssessOptions out = *this;
+    out.wrong_verdicts /= static_cast<double>(parts);
+    return out;
+  }
 };
 
 /// The view of one sign from one place.
@@ -87,9 +101,11 @@ struct Assessment {
   std::vector<StateWarning> warnings;
   std::vector<Finding> findings;  // of the inspection; its warnings are in `warnings` as well
   int64_t paths = 0;              // number of paths from eyes in all rounds
+  double sure_errors = 0;         // as in SightRules, of `sights`
   double seconds = 0;
   uint64_t scene_hash = 0;
   uint64_t seed = 1;
+  bool place_unknown = false;  // as in SightRules
 };
 
 /// Reports the current work and the share of it that is done.

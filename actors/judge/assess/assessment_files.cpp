@@ -43,7 +43,8 @@ void add_seen(const SightRecord& sight, CsvTable& table) {
   const bool seen = sight.line_of_sight.seen;
   if (!sight.seen) {
     for (int i = 0; i < 11; ++i) table.empty_cell();
-    table.cell(seen).empty_cell();
+    table.cell(seen);
+    for (int i = 0; i < 4; ++i) table.empty_cell();
     return;
   }
   const LookRecord& look = sight.seen->look;
@@ -51,7 +52,8 @@ void add_seen(const SightRecord& sight, CsvTable& table) {
               look.ground_cd_m2.error, look.surround_cd_m2.value, look.transmission,
               look.reading_level.value, look.reading_level.error, look.seeing_level.value,
               sight.seen->extinction_per_m, sight.seen->jin.legible, seen,
-              sight.seen->viewing_distance.within);
+              sight.seen->viewing_distance.within, sight.seen->margin.luminance,
+              sight.seen->margin.read_within_m, sight.seen->margin.seen_within_m);
 }
 
 CsvTable sights_csv(const AssessmentRecord& assessment) {
@@ -82,7 +84,10 @@ CsvTable sights_csv(const AssessmentRecord& assessment) {
                   "extinction.value",
                   "jin.legible",
                   "line_of_sight.seen",
-                  "viewing_distance.within"});
+                  "viewing_distance.within",
+                  "margin.luminance",
+                  "margin.read_within.value",
+                  "margin.seen_within.value"});
   for (const SightRecord& sight : assessment.sights) {
     table.cells(english().subject(sight.from), sight.along_m, sight.stands_for.value,
                 sight.eye_height_m, sight.eye.x, sight.eye.y, sight.eye.z, sight.sign,

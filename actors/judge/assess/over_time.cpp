@@ -21,6 +21,8 @@ namespace {
 constexpr double min_albedo = 0.1, max_albedo = 0.5;
 /// Share of a state's work for its own albedo; the rest is for the two ends of the range.
 constexpr double first_share = 0.6;
+/// Each state is traced in smoke of so many albedos.
+constexpr size_t albedos = 3;
 
 /// Identifies a view: the place, the eye height and the sign.
 struct ViewKey {
@@ -273,7 +275,8 @@ Result<OverTime> assess_over_time(const std::vector<double>& times_s, const Scen
     if (auto ok = check_guidance(*scene.value()); !ok) return ok.problem();
     auto scenario = judged_scenario(*scene.value(), options.scenario);
     if (!scenario) return scenario.problem();
-    StateOfTime state(scene.value(), std::move(scenario).value(), options);
+    StateOfTime state(scene.value(), std::move(scenario).value(),
+                      options.one_of(albedos * times_s.size()));
     const auto told = [&](const std::string& what, double share) {
       progress(fmt::format("state {} of {} ({:g} s), {}", i + 1, times_s.size(), times_s[i], what),
                (static_cast<double>(i) + share) / static_cast<double>(times_s.size()));
@@ -299,9 +302,10 @@ Result<Assessment> assess_states(const StatesToAssess& states, const AssessOptio
   const bool several = options.reality && states.times_s.size() > 1;
   if (several)
     if (auto ok = check_guidance(*states.last); !ok) return ok.problem();
-  auto out = assess(states.last, options, interrupt, progress);
+  const AssessOptions each = options.one_of(several ? 2 : 1);  // the last state, and the others
+  auto out = assess(states.last, each, interrupt, progress);
   if (!out || !several) return out;
-  AssessOptions asked = options;
+  AssessOptions asked = each;
   asked.scenario = out->state.scenario;
   auto followed = assess_over_time(states.times_s, states.reader, asked, interrupt, over_time);
   if (!followed) return followed.problem();

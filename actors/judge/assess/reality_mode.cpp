@@ -16,6 +16,7 @@ Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenar
   for (int round = 0; round < options.rounds && sights.is_open(0); ++round)
     if (auto ok = sights.trace(round, {true}, interrupt, progress); !ok) return ok.problem();
   out.paths += sights.paths();
+  out.sure_errors = sights.sure_errors();
   for (const SightRow& row : sights.rows(0)) out.sights.push_back(row);
   return {};
 }

@@ -62,13 +62,15 @@ LookRecord look_of(const SignLook& look, const Sight& sight) {
 }
 
 /// None of a sign that is hidden or dark.
-std::optional<SeenRecord> seen_of(const SightRow& row) {
+std::optional<SeenRecord> seen_of(const SightRow& row, const SightRules& rules) {
   if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
     return std::nullopt;
+  const Reach reach = reach_of(row.view, row.look, rules);
   SeenRecord out{
       .in_new_light = row.in_new_light,
       .look = look_of(row.look, row.sight),
       .extinction_per_m = row.sight.extinction,
+      .margin = {row.sight.reading_level.value / level_read, reach.read_m, reach.seen_m},
       .jin = {row.sight.jin_m, row.sight.jin_legible},
       .viewing_distance = {row.sight.viewing.allowed_oblique_m, row.sight.viewing.within},
       .other_light = {}};
@@ -78,7 +80,7 @@ std::optional<SeenRecord> seen_of(const SightRow& row) {
   return out;
 }
 
-SightRecord sight_of(const SightRow& row) {
+SightRecord sight_of(const SightRow& row, const SightRules& rules) {
   return {.from = row.from,
           .stands_for = {row.stands_for, row.from.kind == SubjectKind::route ? "m" : "m2"},
           .along_m = row.along_m,
@@ -95,7 +97,7 @@ SightRecord sight_of(const SightRow& row) {
           .detail_arcmin = row.view.detail_arcmin,
           .line_of_sight = {row.line.distance_m, row.line.clear, row.line.extinction,
                             row.line.visibility_m, row.line.seen},
-          .seen = seen_of(row)};
+          .seen = seen_of(row, rules)};
 }
 
 /// A number that is not finite is none, as in JSON.
@@ -156,10 +158,16 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
   out.verdict = {first_sentence(out, words_of(counts)), words_of(counts), CountsRecord::of(counts)};
   out.not_assessed = not_assessed_of(assessment);
   out.people = {scene.assessment.age_years, scene.assessment.spacing_m,
-                scene.assessment.irritant_smoke};
-  out.method = {assessment.seed, assessment.paths, assessment.seconds};
+                scene.assessment.irritant_smoke, assessment.place_unknown};
+  out.method = {.seed = assessment.seed,
+                .eye_paths = assessment.paths,
+                .seconds = assessment.seconds,
+                .wrong_verdicts = limits::wrong_verdicts,
+                .sure_errors = assessment.sure_errors};
   for (const Check& check : assessment.checks) out.checks.push_back(check_of(check));
-  for (const SightRow& row : assessment.sights) out.sights.push_back(sight_of(row));
+  const SightRules rules{.eye = {scene.assessment.age_years},
+                         .place_unknown = assessment.place_unknown};
+  for (const SightRow& row : assessment.sights) out.sights.push_back(sight_of(row, rules));
   out.sweep = assessment.sweep;
   out.over_time = assessment.over_time;
   for (const StateWarning& one : assessment.warnings) out.warnings.push_back(warning_of(one));

@@ -11,7 +11,6 @@
 #include "actors/judge/inspect/building.hpp"
 #include "actors/results/run/run_executor.hpp"
 #include "scenes/emergency/veil.hpp"
-#include "scenes/light/signs/sign_face.hpp"
 
 namespace luxodus {
 
@@ -28,9 +27,15 @@ struct RoundSize {
   explicit RoundSize(int round)
       : paths(std::min(max_paths, first_paths << (2 * round))),
         batches(min_batches * ((first_paths << (2 * round)) / paths)) {}
+  double all_paths() const { return static_cast<double>(paths * batches); }
+
   int64_t paths;  // of a batch, to each part of a sign
   int64_t batches;
 };
+
+/// Values of a view that are compared with a limit in each light: legend minus ground, and face
+/// minus surround.
+constexpr size_t values_of_light = 2;
 
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(
@@ -86,94 +91,6 @@ std::vector<double> veils_of(const Building& building, const GeometryAccess& acc
   return veils;
 }
 
-/// Error propagation for independent samples, to first order.
-Uncertain plus(const Uncertain& a, const Uncertain& b) {
-  return {a.value + b.value, std::hypot(a.error, b.error)};
-}
-Uncertain product(const Uncertain& a, const Uncertain& b) {
-  return {a.value * b.value, std::hypot(a.value * b.error, a.error * b.value)};
-}
-
-/// Reads the light from one sign to the eye, in one mixture.
-class ViewReadout {
- public:
-  ViewReadout(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
-              size_t mixture)
-      : readout_(readout), scene_(scene), target_(target), mixture_(mixture) {}
-
-  SignLook look(double veil) const;
-
- private:
-  Uncertain of(uint32_t part, EyeQuantity quantity) const;
-  Uncertain whole(uint32_t part, EyeQuantity quantity) const;
-  Uncertain mixed(uint32_t part, MixtureEyeQuantity quantity) const;
-
-  const Readout& readout_;
-  const CompiledScene& scene_;
-  const EyeTarget& target_;
-  size_t mixture_;
-};
-
-Uncertain ViewReadout::whole(uint32_t part, EyeQuantity quantity) const {
-  const Estimate e = readout_.value(scene_.blocks.views, target_.first_bin + part,
-                                    static_cast<uint32_t>(quantity));
-  return {e.value, e.standard_error};
-}
-
-Uncertain ViewReadout::mixed(uint32_t part, MixtureEyeQuantity quantity) const {
-  const size_t bin = (target_.first_bin + part) * scene_.mixtures.size() + mixture_;
-  const Estimate e = readout_.value(scene_.blocks.views_by_mixture, static_cast<uint32_t>(bin),
-                                    static_cast<uint32_t>(quantity));
-  return {e.value, e.standard_error};
-}
-
-Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity) const {
-  if (scene_.mixtures.empty()) return whole(part, quantity);
-  switch (quantity) {
-    case EyeQuantity::reflected:
-      return mixed(part, MixtureEyeQuantity::reflected);
-    case EyeQuantity::at_eye:
-      return mixed(part, MixtureEyeQuantity::at_eye);
-    case EyeQuantity::own: {
-      const CompiledSign& sign = scene_.signs[target_.sign];
-      const int group = part == 0 ? sign.white_group : sign.green_group;
-      return product({scene_.mixtures[mixture_][static_cast<size_t>(group)], 0},
-                     whole(part, quantity));
-    }
-    default:  // transmission and occlusion are the same in all light
-      return whole(part, quantity);
-  }
-}
-
-SignLook ViewReadout::look(double veil) const {
-  const SignFace& face = scene_.description->signs[scene_.signs[target_.sign].sign].face;
-  const Uncertain white = of(0, EyeQuantity::at_eye);
-  const Uncertain green = of(1, EyeQuantity::at_eye);
-  const bool white_legend = face.legend == SignColour::white;
-  const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
-  const double all = std::max(w + g, 1e-12);
-  SignLook look;
-  look.legend = white_legend ? white : green;
-  look.ground = white_legend ? green : white;
-  look.face = {(w * white.value + g * green.value) / all,
-               std::hypot(w * white.error, g * green.error) / all};
-  look.surround = of(2, EyeQuantity::at_eye);
-  const auto mean_of_colours = [&](EyeQuantity q) {
-    return (w * of(0, q).value + g * of(1, q).value) / all;
-  };
-  look.visible_share = mean_of_colours(EyeQuantity::visible);
-  const double passed = mean_of_colours(EyeQuantity::transmission);
-  look.transmission = look.visible_share > 0 ? passed / look.visible_share : 0;
-  look.veil_cd_m2 = veil;
-  const auto arrives = [&](uint32_t part) {
-    return product(plus(of(part, EyeQuantity::own), of(part, EyeQuantity::reflected)),
-                   of(part, EyeQuantity::transmission));
-  };
-  look.difference =
-      plus(arrives(white_legend ? 0 : 1), product({-1, 0}, arrives(white_legend ? 1 : 0)));
-  return look;
-}
-
 }  // namespace
 
 SightsInLights::SightsInLights(const JudgedScene& judged, const std::vector<Observer>& observers,
@@ -223,8 +140,11 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
       if (seen > 0 && !stuck) {
         row.sight.verdict = SightVerdict::undecided;
         faced[i].push_back(
-            {rows[i].size(), i, s,
-             veils_of(building, access, row, s, scene_.assessment.age_years, factors)});
+            {rows[i].size(),
+             i,
+             s,
+             veils_of(building, access, row, s, scene_.assessment.age_years, factors),
+             {}});
         const std::vector<double>& veils = faced[i].back().veils_cd_m2;
         const auto of_lights = static_cast<std::ptrdiff_t>(judged_.lights_mixtures());
         row.look.veil_cd_m2 = *std::max_element(veils.begin(), veils.begin() + of_lights);
@@ -241,6 +161,10 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
     for (SightRow& row : rows[i]) rows_.front().push_back(std::move(row));
   }
   std::fill(rows_.begin() + 1, rows_.end(), rows_.front());
+  const Comparisons comparisons{faced_.size(), values_of_light * judged_.per_light(),
+                                options_.rounds};
+  sure_errors_ = options_.sure_errors.value_or(
+      luxodus::sure_errors(options_.wrong_verdicts, comparisons, static_cast<double>(min_batches)));
   open_.assign(lights(), std::vector<bool>(faced_.size(), true));
   errors_beyond_first_.assign(
       lights(),
@@ -269,22 +193,25 @@ RoundState SightsInLights::round_state(int round, const std::vector<size_t>& vie
   return out;
 }
 
+SignLook SightsInLights::look_in(const Faced& faced, size_t mixture) const {
+  return look_of(scene_.signs[faced.sign].face, faced.light[mixture].mean(),
+                 faced.veils_cd_m2[mixture]);
+}
+
 /// Judges in aged light and, if luminaires age, in new light; the worse verdict counts.
-void SightsInLights::judge_view(const Readout& readout, const CompiledScene& scene,
-                                const EyeTarget& target, const Faced& faced, size_t light) {
+void SightsInLights::judge_view(const Faced& faced, size_t light) {
   const SightRules rules{{scene_.assessment.age_years},
-                         scene_.assessment.irritant_smoke.value_or(false)};
+                         scene_.assessment.irritant_smoke.value_or(false),
+                         sure_errors_,
+                         options_.place_unknown};
   const Sign& sign = scene_.signs[faced.sign];
   SightRow& row = rows_[light][faced.row];
-  const auto look_in = [&](size_t mixture) {
-    return ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
-  };
-  row.look = look_in(judged_.aged_mixture(light));
+  row.look = look_in(faced, judged_.aged_mixture(light));
   row.sight = judge_sight(sign, row.view, row.look, rules);
   row.in_new_light = false;
   row.other.reset();
   if (judged_.ageing.any())
-    judge_in_new_light(row, sign, look_in(judged_.new_mixture(light)), rules);
+    judge_in_new_light(row, sign, look_in(faced, judged_.new_mixture(light)), rules);
   // Light of new luminaires only veils more.
   if (!judged_.ageing.new_light_known && row.sight.verdict == SightVerdict::legible) {
     row.sight.verdict = SightVerdict::not_assessed;
@@ -307,21 +234,25 @@ void SightsInLights::judge_in_new_light(SightRow& row, const Sign& sign, SignLoo
 
 /// Sets the error if both verdicts count in the same light, aged or new. Requires: this round has
 /// judged both.
-void SightsInLights::compare_with_first(const Readout& readout, const CompiledScene& scene,
-                                        const EyeTarget& target, const Faced& faced, size_t light) {
+void SightsInLights::compare_with_first(const Faced& faced, size_t light) {
   const SightRow &first = rows_.front()[faced.row], &row = rows_[light][faced.row];
   double& error = errors_beyond_first_[light][faced.row];
   error = std::numeric_limits<double>::quiet_NaN();
   if (row.sight.verdict != SightVerdict::undecided || first.in_new_light != row.in_new_light)
     return;
-  const size_t mixture = judged_.mixture_beyond_first(light, row.in_new_light);
-  const SignLook beyond =
-      ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
+  const SignLook beyond = look_in(faced, judged_.mixture_beyond_first(light, row.in_new_light));
   error =
       error_of_level_beyond(first.look, row.look, beyond, row.view, {scene_.assessment.age_years});
 }
 
-void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
+void SightsInLights::pool(const Readout& readout, const CompiledScene& scene,
+                          const EyeTarget& target, double paths, Faced& faced) const {
+  faced.light.resize(faced.veils_cd_m2.size());
+  for (size_t mixture = 0; mixture < faced.light.size(); ++mixture)
+    faced.light[mixture].add(read_view(readout, scene, target, mixture), paths);
+}
+
+void SightsInLights::judge(const CompiledScene& scene, const Totals& totals, double paths,
                            const std::vector<size_t>& views) {
   const Readout readout(scene, totals);
   std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
@@ -330,8 +261,9 @@ void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
     targets[{observing_[target.observer], face.sign, face.back}] = &target;
   }
   for (const size_t view : views) {
-    const Faced& faced = faced_[view];
+    Faced& faced = faced_[view];
     const auto target = targets.find({faced.stand, faced.sign, rows_.front()[faced.row].back_face});
+    if (target != targets.end()) pool(readout, scene, *target->second, paths, faced);
     for (size_t light = 0; light < lights(); ++light) {
       if (!open_[light][view]) continue;
       SightRow& row = rows_[light][faced.row];
@@ -339,9 +271,8 @@ void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
         row.sight.verdict = SightVerdict::not_assessed;
         row.sight.reason = remark(RemarkId::seen_edge_on);
       } else {
-        judge_view(readout, scene, *target->second, faced, light);
-        if (light > 0 && open_.front()[view])
-          compare_with_first(readout, scene, *target->second, faced, light);
+        judge_view(faced, light);
+        if (light > 0 && open_.front()[view]) compare_with_first(faced, light);
       }
       open_[light][view] = row.sight.verdict == SightVerdict::undecided;
     }
@@ -381,7 +312,7 @@ Result<void> SightsInLights::trace(int round, const std::vector<bool>& asked,
   paths_ += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
             static_cast<int64_t>(3 * run.scene().eye_targets.size());
   if (auto ok = Readout(run.scene(), run.totals()).check_range(); !ok) return ok;
-  judge(run.scene(), run.totals(), views);
+  judge(run.scene(), run.totals(), RoundSize(round).all_paths(), views);
   progress(what, 1);
   return {};
 }

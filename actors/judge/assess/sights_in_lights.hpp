@@ -10,6 +10,7 @@
 #include "actors/judge/assess/assessment.hpp"
 #include "actors/judge/assess/round_state.hpp"
 #include "actors/judge/assess/stands.hpp"
+#include "actors/judge/assess/view_light.hpp"
 
 namespace luxodus {
 
@@ -41,6 +42,8 @@ class SightsInLights {
   /// Requires: not the first light.
   std::optional<double> error_beyond_first(size_t light, size_t row) const;
   int64_t paths() const { return paths_; }
+  /// Distance of a value from its limit at which a verdict is given, in standard errors.
+  double sure_errors() const { return sure_errors_; }
 
  private:
   /// A view whose verdict depends on traced paths.
@@ -48,15 +51,19 @@ class SightsInLights {
     size_t row, stand;
     uint32_t sign;
     std::vector<double> veils_cd_m2;  // veiling luminance of glare, by mixture
+    std::vector<PooledLight> light;   // of all rounds, by mixture; empty before the first
   };
   RoundState round_state(int round, const std::vector<size_t>& views) const;
-  void judge(const CompiledScene& scene, const Totals& totals, const std::vector<size_t>& views);
-  void judge_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
-                  const Faced& faced, size_t light);
+  /// Adds the light of a round to a view's.
+  void pool(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+            double paths, Faced& faced) const;
+  void judge(const CompiledScene& scene, const Totals& totals, double paths,
+             const std::vector<size_t>& views);
+  SignLook look_in(const Faced& faced, size_t mixture) const;
+  void judge_view(const Faced& faced, size_t light);
   static void judge_in_new_light(SightRow& row, const Sign& sign, SignLook look,
                                  const SightRules& rules);
-  void compare_with_first(const Readout& readout, const CompiledScene& scene,
-                          const EyeTarget& target, const Faced& faced, size_t light);
+  void compare_with_first(const Faced& faced, size_t light);
 
   const JudgedScene& judged_;
   const SceneDescription& scene_ = judged_.scene;
@@ -67,6 +74,7 @@ class SightsInLights {
   std::vector<std::vector<double>> errors_beyond_first_;  // by light and row; NaN: not known
   std::vector<Stand> stands_;
   std::vector<Faced> faced_;
+  double sure_errors_ = 0;               // as in SightRules
   std::vector<std::vector<bool>> open_;  // undecided; by light and faced view
   std::vector<size_t> observing_;        // indices into stands_ of the round's observers
   int64_t paths_ = 0;

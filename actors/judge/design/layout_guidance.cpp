@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "actors/judge/assess/guiding_views.hpp"
+#include "actors/judge/design/smoke_differences.hpp"
 #include "scenes/light/transport/compile.hpp"
 
 namespace luxodus {
@@ -44,6 +45,7 @@ class GuidanceTracer {
     const GuidingViews views(scene);
     AssessOptions asked = options_.asked;
     asked.wanted = [&](const SightRow& row) { return views.can_guide(row); };
+    asked.sure_errors = sure_errors_of_races;
     auto state = LayoutGroupState::make(*group.lights, scene, scenario.value(), asked, progress_);
     if (!state) return state.problem();
     SightsInLights& sights = state.value()->sights();

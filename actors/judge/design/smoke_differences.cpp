@@ -9,9 +9,8 @@ namespace luxodus {
 
 namespace {
 
-/// Standard errors as for verdicts on views, and the share of a normal distribution that lies
-/// farther below its mean.
-constexpr double sure_errors = 2, unsure_share = 0.02275;
+/// Share of a normal distribution that lies sure_errors_of_races below its mean.
+constexpr double unsure_share = 0.02275;
 
 double normal_below(double a) {
   return std::erfc(-a / std::numbers::sqrt2) / 2;
@@ -73,7 +72,7 @@ double surely_won(const std::vector<OpenPlace>& places) {
     all += p.length;
   }
   const double error = std::sqrt(variance);
-  if (error >= longest) return mean - sure_errors * error;
+  if (error >= longest) return mean - sure_errors_of_races * error;
   double out = -all;
   constexpr double finer = 1.1, largest = 20;
   for (double t = 1 / all; t < largest / longest; t *= finer)

@@ -12,6 +12,11 @@
 
 namespace luxodus {
 
+/// Standard errors at which views of layouts get their verdicts. A report needs far more, since
+/// each of its verdicts counts; a comparison of layouts sums many views and has an interval of its
+/// own.
+inline constexpr double sure_errors_of_races = 2;
+
 /// Interval of the difference of two layouts' legible shares, in shares of the routes' length. Each
 /// end excludes 2.3 %, as two standard errors do.
 struct ShareDifference {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "actors/judge/design/smoke_differences.hpp"
 #include "scenes/light/transport/compile.hpp"
 
 namespace luxodus {
@@ -107,6 +108,7 @@ Result<void> SmokeRace::open_group(const LayoutGroup& group) {
   asked.seed = options_.seed;
   asked.threads = options_.threads;
   asked.wanted = is_ahead;
+  asked.sure_errors = sure_errors_of_races;
   for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
     const auto scenario = find_scenario(*group.base, stage_.scenarios[s]);
     if (!scenario) return scenario.problem();

@@ -18,7 +18,7 @@
 
 namespace luxodus {
 
-inline constexpr const char* assessment_format = "luxodus assessment 2";
+inline constexpr const char* assessment_format = "luxodus assessment 3";
 
 struct SceneRecord {
   std::string name, title, file;
@@ -151,10 +151,12 @@ struct NotAssessedRecord {
 struct PeopleRecord {
   double age_years = 0, spacing_m = 0;
   std::optional<bool> irritant_smoke;
+  bool place_unknown = false;  // they do not know where the signs are
   static constexpr void fields(auto&& field, auto& m) {
     field("age", m.age_years, {.unit = "years"});
     field("spacing", m.spacing_m, {.unit = "m"});
     field("irritant_smoke", m.irritant_smoke, {.or_null = true});
+    field("place_of_signs", either(m.place_unknown, "unknown", "known"));
   }
 };
 
@@ -162,8 +164,11 @@ struct MethodRecord {
   uint64_t seed = 0;
   int64_t eye_paths = 0;
   double seconds = 0;
+  double wrong_verdicts = 0;  // expected number that noise makes wrong, at most
+  double sure_errors = 0;     // a verdict's distance from its limit, in standard errors
   static constexpr void fields(auto&& field, auto& m) {
     field("seed", m.seed)("eye_paths", m.eye_paths);
+    field("wrong_verdicts_at_most", m.wrong_verdicts)("sure_errors", m.sure_errors);
     field("seconds", m.seconds, {.unit = "s"});
   }
 };
@@ -231,6 +236,18 @@ struct JinRecord {
   }
 };
 
+/// How far a view is from its limits: legend minus ground over what reading requires, and the
+/// distances on its line within which the legend is read and the face is seen.
+struct MarginRecord {
+  double luminance = 0;
+  double read_within_m = 0, seen_within_m = 0;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("luminance", m.luminance, {.unit = "1", .or_null = true});
+    field("read_within", m.read_within_m, {.unit = "m", .or_null = true});
+    field("seen_within", m.seen_within_m, {.unit = "m", .or_null = true});
+  }
+};
+
 struct ViewingDistanceRecord {
   double allowed_m = 0;
   bool within = false;
@@ -257,13 +274,15 @@ struct SeenRecord {
   bool in_new_light = false;
   LookRecord look;
   double extinction_per_m = 0;  // mean along the line of sight
+  MarginRecord margin;
   JinRecord jin;
   ViewingDistanceRecord viewing_distance;
   std::optional<OtherLightRecord> other_light;
   static constexpr void fields(auto&& field, auto& m) {
     field("light", either(m.in_new_light, "new", "aged"))(in_place, m.look);
     field("extinction", m.extinction_per_m, {.unit = "1/m", .or_null = true});
-    field("jin", m.jin)("viewing_distance", m.viewing_distance)("other_light", m.other_light);
+    field("margin", m.margin)("jin", m.jin)("viewing_distance", m.viewing_distance);
+    field("other_light", m.other_light);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "actors/judge/report/page.hpp"
 #include "runtime/core/output_text.hpp"
+#include "scenes/emergency/legibility.hpp"
 
 namespace luxodus {
 
@@ -226,8 +227,13 @@ std::string method_section(const PageParts& parts) {
   const MethodRecord& m = parts.a.method;
   const PlanRecord& plan = parts.a.plan;
   std::string out =
-      paragraph(t.say("method.codes", t.number(plan.route_grid_m), t.number(plan.area_grid_m))) +
-      paragraph(t("method.signs")) + paragraph(t("method.legible"));
+      paragraph(t.say("method.codes", t.number(plan.route_grid_m), t.number(plan.area_grid_m)));
+  if (m.sure_errors > 0)
+    out +=
+        paragraph(t.say("method.signs", t.number(m.sure_errors, 2), t.number(m.wrong_verdicts))) +
+        paragraph(t("method.legible"));
+  if (m.sure_errors > 0 && parts.a.people.place_unknown)
+    out += paragraph(t.say("method.unknown_place", unknown_place_contrast));
   Facts facts(t);
   facts.add("method.version", "Luxodus " + parts.a.version);
   facts.add("method.scene", parts.a.scene.file);

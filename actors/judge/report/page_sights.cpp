@@ -106,13 +106,15 @@ std::string observers_table(const PageParts& parts) {
     if (!sight.by_observer() || sight.verdict == SightVerdict::hidden) continue;
     rows += "<tr>" + verdict_cell(t, "sight", name_of(sight.verdict)) +
             cell(t.subject(sight.from)) + cell(sight.sign) + number_cell(t, sight.distance_m, "m") +
-            (sight.seen ? number_cell(t, sight.seen->look.reading_level.value) : no_number_cell()) +
+            (sight.seen ? number_cell(t, sight.seen->look.reading_level.value) +
+                              number_cell(t, sight.seen->margin.read_within_m, "m")
+                        : no_number_cell() + no_number_cell()) +
             "</tr>\n";
   }
-  return table(
-      t,
-      {"column.verdict", "column.from", "column.sign", "column.distance", "column.reading_level"},
-      {26, 26, 24, 12, 12}, rows);
+  return table(t,
+               {"column.verdict", "column.from", "column.sign", "column.distance",
+                "column.reading_level", "column.read_within"},
+               {24, 22, 20, 11, 12, 11}, rows);
 }
 
 /// Suffix of a picture's name and key of its caption: human view first, then luminance.

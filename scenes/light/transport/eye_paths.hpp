@@ -85,6 +85,12 @@ class EyeScores {
     return {band, scene_.bands[band].lm_per_w / eye_.band_probability(band)};
   }
 
+  /// A stretch of a line of sight that nothing solid interrupts.
+  struct Line {
+    Ray ray;
+    Real length;
+  };
+
   void start_sums() {
     paths_ = 0;
     own_ = transmission_ = visible_ = 0;
@@ -151,23 +157,31 @@ class EyeScores {
     return true;
   }
 
+  Vec3 place_on_face(const CompiledSign& sign, const Vec2& uv) const {
+    const Sign& d = scene_.description->signs[sign.sign];
+    return sign.origin + sign.axes[0] * ((uv.x - 0.5_r) * static_cast<Real>(d.width_m)) +
+           sign.axes[1] * ((uv.y - 0.5_r) * static_cast<Real>(d.height_m));
+  }
+
+  /// From the observer's eye to a point in the plane of the face.
+  ShadowRay line_to_face(const EyeTarget& target, const Vec2& uv) const {
+    const CompiledSign& sign = scene_.signs[target.sign];
+    const Vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
+    return connect(scene_, eye, place_on_face(sign, uv), sign.axes[2], true);
+  }
+
   void look_at_sign(const EyeTarget& target, uint32_t part) {
     Vec2 uv;
     if (!aim(target, part, uv)) return;
     ++paths_;
     const CompiledSign& sign = scene_.signs[target.sign];
-    const Sign& d = scene_.description->signs[sign.sign];
-    const Vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
-    const Vec3 aimed = sign.origin +
-                       sign.axes[0] * ((uv.x - 0.5_r) * static_cast<Real>(d.width_m)) +
-                       sign.axes[1] * ((uv.y - 0.5_r) * static_cast<Real>(d.height_m));
-    const ShadowRay c = connect(scene_, eye, aimed, sign.axes[2], true);
+    const ShadowRay c = line_to_face(target, uv);
     const PathBand chosen = choose_band();
-    if (part == 2) return look_along(c, chosen);
+    if (part == 2) return look_beside_face(target, uv, chosen);
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, chosen.band, resolver_);
     const OwnLight own = own_light(sign, uv, c, chosen.band);
     own_ += own.at_face;
-    reflect_room_light(sign, part, aimed, c.ray.direction, chosen);
+    reflect_room_light(sign, part, place_on_face(sign, uv), c.ray.direction, chosen);
     reflected_.add_scaled(light_, 1);
     if (solid <= 0) return look_along(c, chosen);
     visible_ += 1;
@@ -175,7 +189,48 @@ class EyeScores {
     transmission_ += solid * (own.at_face > 0 ? own.at_eye / own.at_face : own.through_scene);
     at_eye_.add(own.group, solid * own.at_eye);
     at_eye_.add_scaled(light_, solid * own.through);
-    gather_path_light(c, chosen);
+    gather_veil({c.ray, c.distance}, chosen);
+    path_.add_scaled(light_, 1);
+    at_eye_.add_scaled(light_, 1);
+  }
+
+  /// The surround: `reflected` is the light that arrives at the eye from beyond the distance of the
+  /// face, `path` the veil up to there, which is that of the face, too.
+  void look_beside_face(const EyeTarget& target, const Vec2& uv, const PathBand& chosen) {
+    const ShadowRay c = line_to_face(target, uv);
+    const Hit hit = resolver_.nearest(c.ray);
+    if (hit.found() && hit.distance < c.ray.length)
+      return look_at_obstacle(target, uv, c, hit.distance, chosen);
+    visible_ += 1;
+    look_beyond({c.ray, c.distance}, chosen);
+  }
+
+  /// An obstacle beside the face, nearer than the face, has less of its veil. The rest, along the
+  /// line to the nearest point of the face, counts as light that does not arrive from beyond.
+  void look_at_obstacle(const EyeTarget& target, const Vec2& uv, const ShadowRay& c, Real distance,
+                        const PathBand& chosen) {
+    const Real before = std::max(distance - static_cast<Real>(scene_.min_offset_m), Real(0));
+    look_beyond({c.ray, before}, chosen);
+    const ShadowRay face = line_to_face(target, glm::clamp(uv, Vec2(0), Vec2(1)));
+    const Real start = std::min(before, face.distance);
+    const Vec3 place = face.ray.origin + face.ray.direction * start;
+    gather_veil({{place, face.ray.direction}, face.distance - start}, chosen);
+    reflected_.add_scaled(light_,
+                          -medium_transmittance(scene_, face.ray, start, chosen.band, resolver_));
+  }
+
+  /// Adds the light from beyond a line of sight, as it arrives at the eye, and the line's veil.
+  void look_beyond(const Line& line, const PathBand& chosen) {
+    const double passed =
+        medium_transmittance(scene_, line.ray, line.length, chosen.band, resolver_);
+    transmission_ += passed;
+    light_.clear();
+    const Vec3 end = line.ray.origin + line.ray.direction * line.length;
+    eye_.radiance({end, line.ray.direction}, chosen.band, EmitterHits::all, chosen.lm_per_w,
+                  light_);
+    reflected_.add_scaled(light_, passed);
+    at_eye_.add_scaled(light_, passed);
+    gather_veil(line, chosen);
     path_.add_scaled(light_, 1);
     at_eye_.add_scaled(light_, 1);
   }
@@ -230,27 +285,28 @@ class EyeScores {
 
   /// Gathers light scattered into the line of sight, or emitted there by flames, into light_, with
   /// one forced collision.
-  void gather_path_light(const ShadowRay& c, const PathBand& chosen) {
+  void gather_veil(const Line& line, const PathBand& chosen) {
     light_.clear();
     if (scene_.features.media == MediaNeed::none) return;
     const int band = chosen.band;
+    const Ray& ray = line.ray;
     if (!scene_.volume_points.empty())
-      eye_.emitters().add_flames(c.ray, c.ray.length, band, -1, chosen.lm_per_w, light_);
-    const double depth = optical_depth<MediaNeed::general>(scene_.media, band, c.ray.origin,
-                                                           c.ray.direction, c.distance, resolver_);
+      eye_.emitters().add_flames(ray, line.length, band, -1, chosen.lm_per_w, light_);
+    const double depth = optical_depth<MediaNeed::general>(scene_.media, band, ray.origin,
+                                                           ray.direction, line.length, resolver_);
     if (!(depth > 0)) return;
     const double collided = -std::expm1(-depth);
     const double tau = -std::log1p(-random_.uniform_double() * collided);
     const Real choice = random_.uniform();
     const FreeFlight flight = free_flight<MediaNeed::general>(
-        scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
-    eye_.add_single_scattering(c.ray, c.distance, flight, collided, band, chosen.lm_per_w, light_);
+        scene_.media, band, ray.origin, ray.direction, line.length, tau, choice, resolver_);
+    eye_.add_single_scattering(ray, line.length, flight, collided, band, chosen.lm_per_w, light_);
     if (!flight.collided || flight.albedo <= 0) return;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    const Vec3 direction = sample(phase, c.ray.direction, u, v);
-    eye_.radiance_after_scattering(c.ray, c.distance, flight, collided, direction, band,
+    const Vec3 direction = sample(phase, ray.direction, u, v);
+    eye_.radiance_after_scattering(ray, line.length, flight, collided, direction, band,
                                    chosen.lm_per_w * collided * flight.albedo, light_);
   }
 

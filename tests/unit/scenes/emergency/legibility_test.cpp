@@ -1,6 +1,7 @@
 #include "scenes/emergency/legibility.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
 
 #include "scenes/light/signs/sign_face.hpp"
@@ -29,6 +30,7 @@ SignLook clear() {
   look.difference = {40, 0.1};
   look.face = {30, 0.1};
   look.surround = {1, 0.05};
+  look.silhouette = {29, 0.11};
   return look;
 }
 
@@ -46,6 +48,7 @@ TEST_CASE("a bright sign is read nearby, seen from far away, and lost behind smo
   SignLook smoke = clear();
   smoke.legend = smoke.ground = smoke.face = smoke.surround = {5, 1e-4};
   smoke.difference = {40 * 1e-6, 1e-9};
+  smoke.silhouette = {29 * 1e-6, 1e-9};
   smoke.transmission = 1e-6;
   const Sight lost = judged_at(10, smoke);
   CHECK(lost.verdict == SightVerdict::invisible);
@@ -53,17 +56,20 @@ TEST_CASE("a bright sign is read nearby, seen from far away, and lost behind smo
   CHECK_FALSE(lost.jin_legible);
 }
 
-TEST_CASE("a sign within two standard errors of its limit is undecided",
-          "[emergency][legibility]") {
+TEST_CASE("a sign too few standard errors from its limit is undecided", "[emergency][legibility]") {
   SignLook noisy = clear();
   const Sight sure = judged_at(10, noisy);
   REQUIRE(sure.reading_level.value > level_read);
-  // The noise is so large that two standard errors reach the limit.
+  // The noise is so large that 1 / 0.6 standard errors reach the limit.
   noisy.difference.error =
       0.6 * 40 * (sure.reading_level.value - level_read) / sure.reading_level.value;
   const Sight unsure = judged_at(10, noisy);
   CHECK(unsure.verdict == SightVerdict::undecided);
   CHECK(unsure.reason);
+  CHECK(judged_at(10, noisy, {{}, false, 1.6}).verdict == SightVerdict::legible);
+  noisy.difference.error /= 2;
+  CHECK(judged_at(10, noisy).verdict == SightVerdict::legible);
+  CHECK(judged_at(10, noisy, {{}, false, 5}).verdict == SightVerdict::undecided);
 }
 
 TEST_CASE(
@@ -116,11 +122,62 @@ TEST_CASE("a silhouette before a bright wall is seen, although nothing on it can
   dark.legend = dark.ground = dark.face = {0.1, 0.001};
   dark.difference = {0, 1e-5};
   dark.surround = {5, 0.01};
+  dark.silhouette = {-4.9, 0.01};
   CHECK(judged_at(10, dark).verdict == SightVerdict::visible);
   dark.surround = {0.1, 0.0001};
+  dark.silhouette = {0, 0.0001};
   CHECK(judged_at(10, dark).verdict == SightVerdict::invisible);
-  dark.surround = {0.1, 0.3};  // too noisy to decide
+  dark.silhouette = {0, 0.3};  // too noisy to decide
   CHECK(judged_at(10, dark).verdict == SightVerdict::undecided);
+}
+
+TEST_CASE("noise that may turn a brighter face into a darker one counts as that of a darker one",
+          "[emergency][legibility]") {
+  const Sign sign = two_coloured();
+  const SignView view = view_of_sign(sign, {0, 0, 30});
+  const auto error_at = [&](double difference) {
+    SignLook look = clear();
+    look.ground.error = 0;
+    look.difference = {difference, 0.1};
+    return judge_sight(sign, view, look, {}).reading_level.error;
+  };
+  CHECK(error_at(0.1) == Approx(error_at(-0.1)));
+  CHECK(error_at(0.1) > error_at(10));
+}
+
+TEST_CASE("a sign of unknown place needs five times the contrast to be seen, not to be read",
+          "[emergency][legibility]") {
+  const SightRules unknown{{}, false, 2, true};
+  SignLook faint = clear();
+  faint.difference = {0, 1e-6};
+  faint.silhouette = {1, 1e-6};
+  const double level = judged_at(10, faint).seeing_level.value;
+  faint.silhouette.value *= 4 / level;
+  CHECK(judged_at(10, faint).verdict == SightVerdict::visible);
+  CHECK(judged_at(10, faint, unknown).verdict == SightVerdict::invisible);
+  faint.silhouette.value *= 1.5;
+  CHECK(judged_at(10, faint, unknown).verdict == SightVerdict::visible);
+  CHECK(judged_at(10, clear(), unknown).verdict == SightVerdict::legible);
+}
+
+TEST_CASE("the reach of a sign is where its levels fall to their limits",
+          "[emergency][legibility]") {
+  const Sign sign = two_coloured();
+  SignLook look = clear();
+  look.transmission = 0.5;
+  const Reach reach = reach_of(view_of_sign(sign, {0, 0, 10}), look, {});
+  // As seen from there, with the contrast that is left.
+  const auto seen_from = [&](double distance) {
+    SignLook there = look;
+    const double left = std::pow(0.5, (distance - 10) / 10);
+    there.difference.value *= left;
+    there.silhouette.value *= left;
+    return judge_sight(sign, view_of_sign(sign, {0, 0, distance}), there, {});
+  };
+  CHECK(seen_from(reach.read_m).reading_level.value == Approx(level_read).epsilon(1e-3));
+  CHECK(seen_from(reach.seen_m).seeing_level.value == Approx(level_seen).epsilon(1e-3));
+  CHECK(reach.read_m < reach.seen_m);
+  CHECK(reach_of(view_of_sign(sign, {0, 0, 10}), {}, {}).read_m == 0);
 }
 
 TEST_CASE("glare makes a legible sign illegible", "[emergency][legibility]") {
@@ -151,17 +208,18 @@ TEST_CASE("irritant smoke limits what light alone would allow", "[emergency][leg
   SignLook look = clear();
   look.transmission = 0.01;  // over 8 m: 0.576/m
   CHECK(judged_at(8, look).verdict == SightVerdict::legible);
-  const Sight stung = judged_at(8, look, {{65}, true});
+  const SightRules irritant{{}, true};
+  const Sight stung = judged_at(8, look, irritant);
   CHECK(stung.extinction == Approx(0.5756).epsilon(1e-3));
   // 8 / 0.576 (0.133 - 1.47 lg 0.576) = 6.7 m.
   CHECK(stung.verdict == SightVerdict::visible);
   CHECK(stung.reason == remark(RemarkId::irritant_smoke));
-  CHECK(judged_at(6, look, {{65}, true}).verdict != SightVerdict::undecided);
+  CHECK(judged_at(6, look, irritant).verdict != SightVerdict::undecided);
   // A sign that is undecided by its light is not read there either.
   look.difference.error = 20;
   REQUIRE(judged_at(8, look).verdict == SightVerdict::undecided);
   CHECK(may_be_read(judged_at(8, look)));
-  CHECK_FALSE(may_be_read(judged_at(8, look, {{65}, true})));
+  CHECK_FALSE(may_be_read(judged_at(8, look, irritant)));
 }
 
 TEST_CASE("the verdict on a view that is worse or may be worse counts", "[emergency][legibility]") {

@@ -1,0 +1,113 @@
+#include "actors/judge/assess/view_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/light/signs/sign_face.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr size_t white = 0, green = 1, surround = 2;
+
+/// Error propagation for independent samples, to first order.
+Uncertain plus(const Uncertain& a, const Uncertain& b) {
+  return {a.value + b.value, std::hypot(a.error, b.error)};
+}
+Uncertain product(const Uncertain& a, const Uncertain& b) {
+  return {a.value * b.value, std::hypot(a.value * b.error, a.error * b.value)};
+}
+Uncertain times(double factor, const Uncertain& a) {
+  return {factor * a.value, std::abs(factor) * a.error};
+}
+Uncertain minus(const Uncertain& a, const Uncertain& b) {
+  return plus(a, times(-1, b));
+}
+
+Uncertain whole(const Readout& readout, const CompiledScene& scene, uint32_t bin,
+                EyeQuantity quantity) {
+  const Estimate e = readout.value(scene.blocks.views, bin, static_cast<uint32_t>(quantity));
+  return {e.value, e.standard_error};
+}
+
+Uncertain mixed(const Readout& readout, const CompiledScene& scene, size_t bin, size_t mixture,
+                MixtureEyeQuantity quantity) {
+  const size_t place = bin * scene.mixtures.size() + mixture;
+  const Estimate e = readout.value(scene.blocks.views_by_mixture, static_cast<uint32_t>(place),
+                                   static_cast<uint32_t>(quantity));
+  return {e.value, e.standard_error};
+}
+
+/// A face's light without the light that smoke before it scatters into the eye.
+Uncertain arriving(const PartLight& part) {
+  return product(plus(part.own, part.reflected), part.transmission);
+}
+
+}  // namespace
+
+ViewLight read_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+                    size_t mixture) {
+  const CompiledSign& sign = scene.signs[target.sign];
+  ViewLight out;
+  for (uint32_t part = 0; part < out.size(); ++part) {
+    const uint32_t bin = target.first_bin + part;
+    out[part] = {whole(readout, scene, bin, EyeQuantity::own),
+                 whole(readout, scene, bin, EyeQuantity::reflected),
+                 whole(readout, scene, bin, EyeQuantity::at_eye),
+                 whole(readout, scene, bin, EyeQuantity::transmission),
+                 whole(readout, scene, bin, EyeQuantity::visible)};
+    if (scene.mixtures.empty()) continue;
+    // Transmission and occlusion are the same in all light.
+    const int group = part == white ? sign.white_group : sign.green_group;
+    out[part].own = times(scene.mixtures[mixture][static_cast<size_t>(group)], out[part].own);
+    out[part].reflected = mixed(readout, scene, bin, mixture, MixtureEyeQuantity::reflected);
+    out[part].at_eye = mixed(readout, scene, bin, mixture, MixtureEyeQuantity::at_eye);
+  }
+  return out;
+}
+
+SignLook look_of(const SignFace& face, const ViewLight& light, double veil_cd_m2) {
+  const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
+  const double all = std::max(w + g, 1e-12);
+  const auto of_face = [&](const Uncertain& of_white, const Uncertain& of_green) {
+    return plus(times(w / all, of_white), times(g / all, of_green));
+  };
+  const size_t legend = face.legend == SignColour::white ? white : green;
+  const size_t ground = legend == white ? green : white;
+  SignLook look;
+  look.legend = light[legend].at_eye;
+  look.ground = light[ground].at_eye;
+  look.face = of_face(light[white].at_eye, light[green].at_eye);
+  look.surround = light[surround].at_eye;
+  look.visible_share = of_face(light[white].visible, light[green].visible).value;
+  const double passed = of_face(light[white].transmission, light[green].transmission).value;
+  look.transmission = look.visible_share > 0 ? passed / look.visible_share : 0;
+  look.veil_cd_m2 = veil_cd_m2;
+  look.difference = minus(arriving(light[legend]), arriving(light[ground]));
+  look.silhouette =
+      minus(of_face(arriving(light[white]), arriving(light[green])), light[surround].reflected);
+  return look;
+}
+
+void PooledLight::add(const ViewLight& round, double paths) {
+  const double all = paths_ + paths;
+  for (size_t part = 0; part < mean_.size(); ++part)
+    PartLight::each(
+        [&](Uncertain& mean, const Uncertain& more) {
+          mean = plus(times(paths_ / all, mean), times(paths / all, more));
+        },
+        mean_[part], round[part]);
+  paths_ = all;
+}
+
+ViewLight PooledLight::mean() const {
+  ViewLight out = mean_;
+  const double least = limits::least_spread / std::sqrt(std::max(1.0, paths_));
+  for (PartLight& part : out)
+    for (Uncertain* traced : {&part.reflected, &part.at_eye})
+      traced->error = std::max(traced->error, least * std::abs(traced->value));
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,54 @@
+// Light of one view of a sign as paths have estimated it, pooled over rounds. Plain values; any
+// thread.
+#pragma once
+
+#include <array>
+
+#include "scenes/emergency/legibility.hpp"
+#include "scenes/light/transport/readout.hpp"
+
+namespace luxodus {
+
+/// Light from one part of a sign, or from its surround: see EyeQuantity.
+struct PartLight {
+  Uncertain own, reflected, at_eye, transmission, visible;
+
+  static constexpr void each(auto&& visit, auto&... parts) {
+    visit(parts.own...);
+    visit(parts.reflected...);
+    visit(parts.at_eye...);
+    visit(parts.transmission...);
+    visit(parts.visible...);
+  }
+};
+
+/// Of white, green and surround.
+using ViewLight = std::array<PartLight, 3>;
+
+/// The light of a round in one mixture of source groups; without mixtures, in all light.
+ViewLight read_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+                    size_t mixture);
+
+/// What arrives at the eye from a sign with this face. `veil_cd_m2`: of disability glare.
+SignLook look_of(const SignFace& face, const ViewLight& light, double veil_cd_m2);
+
+namespace limits {
+/// Standard deviation of the light of a path over its mean, at least. Most of the spread of paths
+/// may be that of rare bright ones, such as those that pass a lamp at a few centimetres. As long as
+/// none was met, the spread of the others says nothing of them.
+inline constexpr double least_spread = 3;
+}  // namespace limits
+
+/// The mean of several rounds. Rounds are weighted by their paths, which were fixed beforehand.
+class PooledLight {
+ public:
+  void add(const ViewLight& round, double paths);
+  /// With errors that are not below those of limits::least_spread for as many paths.
+  ViewLight mean() const;
+
+ private:
+  ViewLight mean_{};
+  double paths_ = 0;
+};
+
+}  // namespace luxodus
