@@ -90,6 +90,13 @@ class ChargedTracer final : public BatchTracer {
     meter_.settle();
     meter_.look();
   }
+  void rest_between_paths(std::function<void()> rest) override {
+    real_->rest_between_paths([this, rest = std::move(rest)] {
+      meter_.settle();
+      rest();
+      meter_.look_up();  // others have traced meanwhile
+    });
+  }
 
  private:
   TracingMeter meter_;

@@ -57,6 +57,18 @@ TEST_CASE("1, 2, 8 and 32 nodes give the bits of the plain loop", "[nodes]") {
                   {nodes_of(1, 1), nodes_of(2, 5), nodes_of(8, 1), nodes_of(32, 3)});
 }
 
+TEST_CASE("histories of thousands of rays in a near-white room give the bits of the plain loop",
+          "[nodes]") {
+  const auto grey = scene_of("empty_room", "", 1);
+  auto white = std::make_shared<SceneDescription>(*grey->description);
+  for (Material& material : white->materials) material.reflectance = Spectrum::constant(0.999);
+  white->run.batch_particles = 64;
+  const auto scene = compile_scene(white, grey->scenario, {1}).value();
+  StopRule stop;
+  stop.particles = 256;
+  check_same_bits(scene, stop, {nodes_of(2, 1), nodes_of(2, 3)});
+}
+
 TEST_CASE("coordinators below the controller change no bit", "[nodes][levels]") {
   StopRule stop;
   stop.particles = 200'000;
