@@ -150,7 +150,11 @@ TEST_CASE("an invalid command line is rejected in a sentence", "[program][help]"
       {"run " + scene + " --resume --overwrite", "excludes"},
       {"report x --language it", "\"it\" is none of en|de|fr"},
       {"topology", "luxodus topology --help"},
-      {"validate --case-time 1m", "--case-time requires --full"}};
+      {"validate --case-time 1m", "--case-time requires --full"},
+      {"validate --experiments --full", "excludes"},
+      {"validate --experiments --quick", "--experiments excludes --quick"},
+      {"validate --experiments --nodes 2", "--experiments excludes --nodes"},
+      {"validate --experiments --only T99", "no experiment has \"T99\" in its id or title"}};
   for (const auto& [command, words] : wrong) {
     const Outcome refused = run_luxodus(folder, command);
     INFO(command << "\n" << refused.err);
@@ -159,6 +163,20 @@ TEST_CASE("an invalid command line is rejected in a sentence", "[program][help]"
     CHECK_THAT(refused.err, Contains(words));
     CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
   }
+}
+
+TEST_CASE("experiments are listed, and one of them is run and written", "[program][help]") {
+  const TemporaryFolder folder;
+  const Outcome listed = run_luxodus(folder, "validate --experiments --list");
+  CHECK(listed.code == 0);
+  CHECK_THAT(listed.out, Contains("T8  The gap of a lit Landolt ring"));
+  const Outcome one =
+      run_luxodus(folder, "validate --experiments --only T2 --out " + (folder / "people").string());
+  INFO(one.err << one.out);
+  CHECK(one.code == 0);
+  CHECK_THAT(one.out, Contains("kept") && Contains("the page is"));
+  for (const char* file : {"experiments.md", "experiments.json", "experiments.svg"})
+    CHECK(fs::exists(folder / "people" / file));
 }
 
 TEST_CASE("bash completes commands, options and their choices", "[program][help]") {

@@ -193,10 +193,13 @@ bool allowed(const std::string& from, const std::string& to) {
 /// Every room that a change of `room` may need: what it includes, and what that includes.
 std::set<std::string> rooms_below(const std::string& room) {
   std::set<std::string> below;
-  for (const auto& [other, unused] : rooms()) {
-    if (other == room || !allowed(room + "/x", other + "/x")) continue;
-    below.insert(other);
-    below.merge(rooms_below(other));
+  std::vector<std::string> open{room};
+  while (!open.empty()) {
+    const std::string from = open.back();
+    open.pop_back();
+    for (const auto& [other, unused] : rooms())
+      if (other != from && allowed(from + "/x", other + "/x") && below.insert(other).second)
+        open.push_back(other);
   }
   return below;
 }

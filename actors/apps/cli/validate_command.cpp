@@ -1,5 +1,5 @@
-// luxodus validate: runs every case with a known answer, and judges by a rule written down
-// beforehand.
+// luxodus validate: runs every case with a known answer, or every experiment with people, and
+// judges by rules written down beforehand.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/apps/cli/signals.hpp"
 #include "actors/cast/process/in_process.hpp"
+#include "actors/judge/validate/experiment_report.hpp"
 #include "actors/judge/validate/validation_report.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
@@ -23,6 +24,7 @@ struct ValidateOptions {
   bool quick = false;
   bool full = false;
   bool list = false;
+  bool experiments = false;
   std::string only;
   std::string error = "0.01%";
   std::string case_time;
@@ -61,7 +63,48 @@ void tell_failures(const std::vector<light::CaseResult>& results, const light::V
   }
 }
 
+/// Options that experiments have no use for.
+Result<void> check_options_of_experiments(const ValidateOptions& options) {
+  if (options.quick) return problem("--experiments excludes --quick");
+  if (options.nodes > 0) return problem("--experiments excludes --nodes: threads trace them");
+  return {};
+}
+
+Result<ExitCode> validate_by_experiments(const ValidateOptions& options) {
+  if (auto ok = check_options_of_experiments(options); !ok) return ok.problem();
+  const light::Experiments experiments = light::experiments_named(options.only);
+  if (experiments.empty())
+    return problem("no experiment has \"" + options.only +
+                   "\" in its id or title; --experiments --list tells them");
+  if (options.list) {
+    for (const light::Experiment& e : experiments)
+      std::printf("%s  %s  (%s)\n", e.id.c_str(), e.title.c_str(), e.source.c_str());
+    return ExitCode::success;
+  }
+  const auto out = OutputFolder::claim(
+      options.out, {{"experiments.md", "experiments.json", "experiments.svg"}, {}});
+  if (!out) return out.problem();
+  install_interrupt_handler();
+  light::ExperimentRecord record;
+  record.options.seed = options.seed;
+  record.options.threads = options.threads;
+  record.only = options.only;
+  ProgressLine line("validate");
+  const auto show = [&](const std::string& what, double share) { line.put(what, false, share); };
+  const auto results = light::run_experiments(experiments, record.options, interrupt_flag(), show);
+  if (!results) return results.problem();
+  line.put(fmt::format("{} of {} experiments", results->size(), experiments.size()), true);
+  record.interrupted = interrupt_flag().load();
+  if (auto ok = light::write_experiments(out->path(), results.value(), record); !ok)
+    return ok.problem();
+  std::printf("%sthe page is %s/experiments.md\n", light::experiments_text(results.value()).c_str(),
+              options.out.c_str());
+  if (record.interrupted) return ExitCode::interrupted;
+  return light::summary_of(results.value()).passed() ? ExitCode::success : ExitCode::failure;
+}
+
 Result<ExitCode> validate(const ValidateOptions& options) {
+  if (options.experiments) return validate_by_experiments(options);
   const auto error = parse_share(options.error);
   if (!error) return error.problem();
   if (!(error.value() > 0)) return problem("--error must be above 0");
@@ -140,12 +183,19 @@ Command validate_command() {
             &o->case_time,
             "Longest time for a case, as 20s or 5m",
             {.form = Form::duration, .otherwise = "until it has the error", .needs = "--full"}},
+           {"--experiments",
+            &o->experiments,
+            "Experiments with people, instead of cases with known light",
+            {.excludes = "--full"}},
            {"--only",
             &o->only,
-            "Part of the names of the cases to run",
-            {.form = Form::name, .otherwise = "all cases"}},
-           {"--list", &o->list, "Names of the cases, and their references"},
-           {"--out", &o->out, "Folder for validate.html and .json", {.form = Form::folder}},
+            "Part of the names of the cases to run, or the id of an experiment",
+            {.form = Form::name, .otherwise = "all"}},
+           {"--list", &o->list, "Names of the cases or experiments, and their sources"},
+           {"--out",
+            &o->out,
+            "Folder for validate.html and .json, or experiments.md, .json and .svg",
+            {.form = Form::folder}},
            {"--seed", &o->seed, "Seed of the random number generator"},
            {"--threads",
             &o->threads,
@@ -158,12 +208,17 @@ Command validate_command() {
           "its standard error and distance z from the reference, how z is distributed, and how "
           "errors fall. Pass or fail follows from a rule that stands on the page and in "
           "docs/validation/rule.md.\n"
+          "Experiments are thresholds at which people saw or read signs in smoke and dim light. "
+          "The program's own verdicts are held against them, by rules that stand in "
+          "docs/validation/experiments.md.\n"
           "Exit code: 0 passed, 1 failed, 2 wrong options, 130 interrupted.\n"
           "  luxodus validate                        quickly, some two minutes of one core\n"
           "  luxodus validate --full                 to 0.01 %; says how long it will take\n"
           "  luxodus validate --full --error 0.1% --only \"cube\"\n"
           "  luxodus validate --full --case-time 1m  at most a minute a case: says what that "
-          "misses",
+          "misses\n"
+          "  luxodus validate --experiments          all, some minutes of two cores\n"
+          "  luxodus validate --experiments --only T8",
       .run = [o] { return exit_code_of(validate(*o)); }};
 }
 
