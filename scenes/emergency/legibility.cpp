@@ -42,8 +42,9 @@ bool surely_below(const Uncertain& level, double limit) {
 }
 
 bool has_legend(const SignFace& face) {
-  return std::count(face.colour.begin(), face.colour.end(), SignColour::white) > 0 &&
-         std::count(face.colour.begin(), face.colour.end(), SignColour::green) > 0;
+  return face.ground != other_colour &&
+         std::count(face.colour.begin(), face.colour.end(), face.legend) > 0 &&
+         std::count(face.colour.begin(), face.colour.end(), face.ground) > 0;
 }
 
 /// Whether the face is certainly not seen: its pattern is below the threshold, and so is its

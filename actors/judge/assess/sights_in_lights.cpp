@@ -136,7 +136,8 @@ Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity) const {
       return mixed(part, MixtureEyeQuantity::at_eye);
     case EyeQuantity::own: {
       const CompiledSign& sign = scene_.signs[target_.sign];
-      const int group = part == 0 ? sign.white_group : sign.green_group;
+      if (sign.parts[part] == other_colour) return {};
+      const int group = sign.colours[sign.parts[part]].group;
       return product({scene_.mixtures[mixture_][static_cast<size_t>(group)], 0},
                      whole(part, quantity));
     }
@@ -147,19 +148,18 @@ Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity) const {
 
 SignLook ViewReadout::look(double veil) const {
   const SignFace& face = scene_.description->signs[scene_.signs[target_.sign].sign].face;
-  const Uncertain white = of(0, EyeQuantity::at_eye);
-  const Uncertain green = of(1, EyeQuantity::at_eye);
-  const bool white_legend = face.legend == SignColour::white;
-  const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
-  const double all = std::max(w + g, 1e-12);
+  const std::array<Uncertain, 2> seen{of(0, EyeQuantity::at_eye), of(1, EyeQuantity::at_eye)};
+  const auto legend = static_cast<uint32_t>(face.legend_part());
+  const std::array<double, 2> share = part_shares(face);
+  const double all = std::max(share[0] + share[1], 1e-12);
   SignLook look;
-  look.legend = white_legend ? white : green;
-  look.ground = white_legend ? green : white;
-  look.face = {(w * white.value + g * green.value) / all,
-               std::hypot(w * white.error, g * green.error) / all};
+  look.legend = seen[legend];
+  look.ground = seen[1 - legend];
+  look.face = {(share[0] * seen[0].value + share[1] * seen[1].value) / all,
+               std::hypot(share[0] * seen[0].error, share[1] * seen[1].error) / all};
   look.surround = of(2, EyeQuantity::at_eye);
   const auto mean_of_colours = [&](EyeQuantity q) {
-    return (w * of(0, q).value + g * of(1, q).value) / all;
+    return (share[0] * of(0, q).value + share[1] * of(1, q).value) / all;
   };
   look.visible_share = mean_of_colours(EyeQuantity::visible);
   const double passed = mean_of_colours(EyeQuantity::transmission);
@@ -169,8 +169,7 @@ SignLook ViewReadout::look(double veil) const {
     return product(plus(of(part, EyeQuantity::own), of(part, EyeQuantity::reflected)),
                    of(part, EyeQuantity::transmission));
   };
-  look.difference =
-      plus(arrives(white_legend ? 0 : 1), product({-1, 0}, arrives(white_legend ? 1 : 0)));
+  look.difference = plus(arrives(legend), product({-1, 0}, arrives(1 - legend)));
   return look;
 }
 

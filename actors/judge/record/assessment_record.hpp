@@ -18,7 +18,7 @@
 
 namespace luxodus {
 
-inline constexpr const char* assessment_format = "luxodus assessment 2";
+inline constexpr const char* assessment_format = "luxodus assessment 3";
 
 struct SceneRecord {
   std::string name, title, file;

@@ -109,7 +109,9 @@ AssessmentRecord full() {
   SignRecord& exit = a.signs.emplace_back();
   exit.name = "exit";
   exit.ifc_guid = "S1";
-  exit.face = {500, 50, 400, 40};
+  exit.legend = "red";
+  exit.ground = "white";
+  exit.colours = {{"red", 500, 400}, {"white", {}, {}}};
   a.places.routes = {{"way", {{0, 0, 0}, {4, 0, 0}}, 2}};
   a.places.areas = {{"hall", true, {{0, 0}, {4, 0}, {4, 4}}, 0, "R1", 500}};
   a.places.emphasis = {{"door", "exit door", {4, 0, 0}}};
@@ -214,8 +216,8 @@ TEST_CASE("an assessment.json that is of another format or inconsistent is refus
     const auto read = assessment_of(json);
     return read ? std::string() : read.problem().what;
   };
-  CHECK(with("", "format", "luxodus assessment 1") ==
-        "its \"format\" is not \"luxodus assessment 2\"");
+  CHECK(with("", "format", "luxodus assessment 2") ==
+        "its \"format\" is not \"luxodus assessment 3\"");
   CHECK(with("state/remarks/0", "id", "of_nobody").find("state.remarks[0]: ") == 0);
   CHECK(with("checks/0", "verdict", "maybe") == "checks[0].verdict is \"maybe\": unknown");
   CHECK(with("over_time/routes/0", "guided", Json::array({"gg", "gx"})) ==

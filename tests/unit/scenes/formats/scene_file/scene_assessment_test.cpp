@@ -189,7 +189,7 @@ TEST_CASE("a change adds a copy under another name, and leaves the original", "[
   CHECK(s.signs[1].name == "way out");
   CHECK(s.signs[1].frame.origin == glm::dvec3(3, 0, 2));
   CHECK(s.signs[1].frame.axes[2].y == Approx(1));
-  CHECK(s.signs[1].mains.white_cd_m2 == 500);
+  CHECK(s.signs[1].colours[0].mains_cd_m2 == 500);
   CHECK(s.signs[2].frame.axes == s.signs[1].frame.axes);  // as what it is a copy of stands by then
   REQUIRE(s.emitters.size() == 2);
   CHECK(s.emitters[0].mains_flux == 10);
