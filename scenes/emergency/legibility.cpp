@@ -118,6 +118,29 @@ const char* name_of(SightVerdict verdict) {
   return "";
 }
 
+SignLook as_protan_eyes_see(SignLook look) {
+  const auto share_of = [](const Tristimulus& light) {
+    return light[1] > 0 ? std::max(0.0, protan_luminance(light) / light[1]) : 1.0;
+  };
+  const auto scale = [](Uncertain& luminance, double share) {
+    luminance.value *= share;
+    luminance.error *= share;
+  };
+  const ColoursAtEye& colours = look.colours;
+  const double legend = share_of(colours.legend), ground = share_of(colours.ground);
+  const double room = share_of(colours.room);
+  if (colours.difference != Tristimulus{}) {
+    look.difference.value = protan_luminance(colours.difference);
+    look.difference.error *= std::max(legend, ground);
+  }
+  scale(look.legend, legend);
+  scale(look.ground, ground);
+  scale(look.face, share_of(colours.face));
+  scale(look.surround, room);
+  look.veil_cd_m2 *= room;
+  return look;
+}
+
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
                   const SightRules& rules) {
   Sight sight;

@@ -180,6 +180,21 @@ TEST_CASE("a red EXIT is assessed by NFPA 101 to the report, and by EN 1838 its 
   bool legible = false;
   for (const auto& sight : american["sights"]) legible |= sight["verdict"] == "legible";
   CHECK(legible);
+  // Protan eyes see a red legend darker.
+  size_t compared = 0;
+  for (const auto& sight : american["sights"]) {
+    if (!sight.contains("other_eyes")) continue;
+    const double level = sight["reading_level"]["value"],
+                 error = sight["reading_level"]["standard_error"];
+    const auto& protan = sight["other_eyes"][2];
+    CHECK(protan["eyes"] == "protan");
+    CHECK(sight["chromatic_difference"]["value"].get<double>() > 0);
+    if (!(level > 10 * error)) continue;
+    CHECK(protan["reading_level"]["value"].get<double>() < level);
+    CHECK(sight["other_eyes"][0]["reading_level"]["value"].get<double>() > level);
+    ++compared;
+  }
+  CHECK(compared > 0);
   const std::string page = slurp(folder / "american" / "report.html");
   CHECK(has(page, "red 40 / white 0"));
   const auto european = assessed("european", "--rules en1838-2024");

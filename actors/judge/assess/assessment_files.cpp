@@ -38,12 +38,20 @@ CsvTable checks_csv(const AssessmentRecord& assessment) {
   return table;
 }
 
+/// "75: legible; protan: invisible".
+std::string by_other_eyes(const SeenRecord& seen) {
+  std::string out;
+  for (const OtherEyesRecord& one : seen.other_eyes)
+    out += (out.empty() ? "" : "; ") + one.eyes + ": " + name_of(one.verdict);
+  return out;
+}
+
 /// From the luminances on.
 void add_seen(const SightRecord& sight, CsvTable& table) {
   const bool seen = sight.line_of_sight.seen;
   if (!sight.seen) {
     for (int i = 0; i < 11; ++i) table.empty_cell();
-    table.cell(seen).empty_cell();
+    table.cell(seen).empty_cell().empty_cell().empty_cell();
     return;
   }
   const LookRecord& look = sight.seen->look;
@@ -51,7 +59,8 @@ void add_seen(const SightRecord& sight, CsvTable& table) {
               look.ground_cd_m2.error, look.surround_cd_m2.value, look.transmission,
               look.reading_level.value, look.reading_level.error, look.seeing_level.value,
               sight.seen->extinction_per_m, sight.seen->jin.legible, seen,
-              sight.seen->viewing_distance.within);
+              sight.seen->viewing_distance.within, look.chromatic_difference,
+              by_other_eyes(*sight.seen));
 }
 
 CsvTable sights_csv(const AssessmentRecord& assessment) {
@@ -82,7 +91,9 @@ CsvTable sights_csv(const AssessmentRecord& assessment) {
                   "extinction.value",
                   "jin.legible",
                   "line_of_sight.seen",
-                  "viewing_distance.within"});
+                  "viewing_distance.within",
+                  "chromatic_difference.value",
+                  "other_eyes.verdict"});
   for (const SightRecord& sight : assessment.sights) {
     table.cells(english().subject(sight.from), sight.along_m, sight.stands_for.value,
                 sight.eye_height_m, sight.eye.x, sight.eye.y, sight.eye.z, sight.sign,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -65,25 +66,35 @@ Factors factors_of(const CompiledScene& scene, const std::vector<GroupMixture>& 
   return out;
 }
 
-/// Veiling luminance in the eye [cd/m2], by mixture, from all emitters except the sign itself. Each
-/// part of an extended emitter, such as a flame, counts with its own direction and with the smoke
-/// before it.
-std::vector<double> veils_of(const Building& building, const GeometryAccess& access,
-                             const SightRow& row, uint32_t sign, double age_years,
-                             const Factors& factors) {
+/// Veiling luminance in the eye [cd/m2], by age and mixture, from all emitters except the sign
+/// itself. Each part of an extended emitter, such as a flame, counts with its own direction and
+/// with the smoke before it.
+std::vector<std::vector<double>> veils_of(const Building& building, const GeometryAccess& access,
+                                          const SightRow& row, uint32_t sign,
+                                          const std::vector<double>& ages, const Factors& factors) {
   const CompiledScene& scene = building.scene();
   const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
-  std::vector<double> veils(factors.size(), 0.0);
+  std::vector<std::vector<double>> veils(ages.size(), std::vector<double>(factors.size(), 0.0));
   for (const ArrivingLight& light :
        direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
     const CompiledEmitter& emitter = scene.emitters[light.emitter];
     if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
-    const double part = light.illuminance_lx *
-                        veil_per_lux(angle_deg(glm::dvec3(light.direction), gaze), age_years);
-    for (size_t m = 0; m < veils.size(); ++m)
-      veils[m] += part * factors[m][static_cast<size_t>(emitter.group)];
+    const double away_deg = angle_deg(glm::dvec3(light.direction), gaze);
+    for (size_t a = 0; a < ages.size(); ++a) {
+      const double part = light.illuminance_lx * veil_per_lux(away_deg, ages[a]);
+      for (size_t m = 0; m < factors.size(); ++m)
+        veils[a][m] += part * factors[m][static_cast<size_t>(emitter.group)];
+    }
   }
   return veils;
+}
+
+/// Ages of the eyes that are judged: those of the assessment first, then the others.
+std::vector<double> ages_of(const AssessmentSettings& people) {
+  std::vector<double> ages{people.age_years};
+  for (const OtherEyes& eyes : people.other_eyes)
+    ages.push_back(eyes.age_years.value_or(people.age_years));
+  return ages;
 }
 
 /// Error propagation for independent samples, to first order.
@@ -97,9 +108,13 @@ Uncertain product(const Uncertain& a, const Uncertain& b) {
 /// Reads the light from one sign to the eye, in one mixture.
 class ViewReadout {
  public:
-  ViewReadout(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
-              size_t mixture)
-      : readout_(readout), scene_(scene), target_(target), mixture_(mixture) {}
+  ViewReadout(const Readout& readout, const CompiledScene& scene,
+              const SignChromaticity& chromaticity, const EyeTarget& target, size_t mixture)
+      : readout_(readout),
+        scene_(scene),
+        chromaticity_(chromaticity),
+        target_(target),
+        mixture_(mixture) {}
 
   SignLook look(double veil) const;
 
@@ -107,9 +122,11 @@ class ViewReadout {
   Uncertain of(uint32_t part, EyeQuantity quantity) const;
   Uncertain whole(uint32_t part, EyeQuantity quantity) const;
   Uncertain mixed(uint32_t part, MixtureEyeQuantity quantity) const;
+  PartLight light_of(uint32_t part) const;
 
   const Readout& readout_;
   const CompiledScene& scene_;
+  const SignChromaticity& chromaticity_;
   const EyeTarget& target_;
   size_t mixture_;
 };
@@ -146,8 +163,17 @@ Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity) const {
   }
 }
 
+PartLight ViewReadout::light_of(uint32_t part) const {
+  const double passed = of(part, EyeQuantity::transmission).value;
+  const double own = of(part, EyeQuantity::own).value * passed;
+  const double reflected = of(part, EyeQuantity::reflected).value * passed;
+  const double path = of(part, EyeQuantity::at_eye).value - own - reflected;
+  return {own, reflected, std::max(0.0, path)};  // their noise may exceed the sum
+}
+
 SignLook ViewReadout::look(double veil) const {
-  const SignFace& face = scene_.description->signs[scene_.signs[target_.sign].sign].face;
+  const uint32_t sign = scene_.signs[target_.sign].sign;
+  const SignFace& face = scene_.description->signs[sign].face;
   const std::array<Uncertain, 2> seen{of(0, EyeQuantity::at_eye), of(1, EyeQuantity::at_eye)};
   const auto legend = static_cast<uint32_t>(face.legend_part());
   const std::array<double, 2> share = part_shares(face);
@@ -170,6 +196,7 @@ SignLook ViewReadout::look(double veil) const {
                    of(part, EyeQuantity::transmission));
   };
   look.difference = plus(arrives(legend), product({-1, 0}, arrives(1 - legend)));
+  look.colours = chromaticity_.at_eye(sign, light_of(legend), light_of(1 - legend));
   return look;
 }
 
@@ -198,6 +225,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
   if (!made) return made.problem();
   const Building& building = *made.value();
   const Factors factors = factors_of(building.scene(), judged_.mixtures());
+  const std::vector<double> ages = ages_of(scene_.assessment);
   stands_ = stands_of(scene_, observers_);
   if (stands_.size() * scene_.signs.size() > limits::sights)
     return problem_in(scene_.file,
@@ -221,9 +249,11 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
       if (stuck) row.sight.reason = remark(RemarkId::eye_in_solid);
       if (seen > 0 && !stuck) {
         row.sight.verdict = SightVerdict::undecided;
-        faced[i].push_back(
-            {rows[i].size(), i, s,
-             veils_of(building, access, row, s, scene_.assessment.age_years, factors)});
+        auto veils_by_age = veils_of(building, access, row, s, ages, factors);
+        Faced& view =
+            faced[i].emplace_back(Faced{rows[i].size(), i, s, std::move(veils_by_age.front()), {}});
+        view.veils_of_other_eyes.assign(std::make_move_iterator(veils_by_age.begin() + 1),
+                                        std::make_move_iterator(veils_by_age.end()));
         const std::vector<double>& veils = faced[i].back().veils_cd_m2;
         const auto of_lights = static_cast<std::ptrdiff_t>(judged_.lights_mixtures());
         row.look.veil_cd_m2 = *std::max_element(veils.begin(), veils.begin() + of_lights);
@@ -275,9 +305,13 @@ void SightsInLights::judge_view(const Readout& readout, const CompiledScene& sce
                          scene_.assessment.irritant_smoke.value_or(false)};
   const Sign& sign = scene_.signs[faced.sign];
   SightRow& row = rows_[light][faced.row];
-  const auto look_in = [&](size_t mixture) {
-    return ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
+  const LookIn look_with = [&](size_t mixture, double veil_cd_m2) {
+    return ViewReadout(readout, scene, *chromaticity_, target, mixture).look(veil_cd_m2);
   };
+  const auto look_in = [&](size_t mixture) {
+    return look_with(mixture, faced.veils_cd_m2[mixture]);
+  };
+  judge_by_other_eyes(look_with, faced, light);
   row.look = look_in(judged_.aged_mixture(light));
   row.sight = judge_sight(sign, row.view, row.look, rules);
   row.in_new_light = false;
@@ -288,6 +322,33 @@ void SightsInLights::judge_view(const Readout& readout, const CompiledScene& sce
   if (!judged_.ageing.new_light_known && row.sight.verdict == SightVerdict::legible) {
     row.sight.verdict = SightVerdict::not_assessed;
     row.sight.reason = remark(RemarkId::initial_flux_unknown);
+  }
+}
+
+/// From the same paths: other eyes have other thresholds and veils, protan ones other luminances.
+void SightsInLights::judge_by_other_eyes(const LookIn& look_in, const Faced& faced, size_t light) {
+  SightRow& row = rows_[light][faced.row];
+  const AssessmentSettings& people = scene_.assessment;
+  row.by_other_eyes.clear();
+  for (size_t e = 0; e < people.other_eyes.size(); ++e) {
+    const OtherEyes& eyes = people.other_eyes[e];
+    const SightRules rules{{eyes.age_years.value_or(people.age_years)},
+                           people.irritant_smoke.value_or(false)};
+    const auto judged = [&](size_t mixture) {
+      const SignLook look = look_in(mixture, faced.veils_of_other_eyes[e][mixture]);
+      return judge_sight(scene_.signs[faced.sign], row.view,
+                         eyes.protan ? as_protan_eyes_see(look) : look, rules);
+    };
+    Sight sight = judged(judged_.aged_mixture(light));
+    if (judged_.ageing.any()) {
+      Sight as_new = judged(judged_.new_mixture(light));
+      if (is_worse(as_new, sight)) sight = std::move(as_new);
+    }
+    if (!judged_.ageing.new_light_known && sight.verdict == SightVerdict::legible) {
+      sight.verdict = SightVerdict::not_assessed;
+      sight.reason = remark(RemarkId::initial_flux_unknown);
+    }
+    row.by_other_eyes.push_back(std::move(sight));
   }
 }
 
@@ -315,7 +376,7 @@ void SightsInLights::compare_with_first(const Readout& readout, const CompiledSc
     return;
   const size_t mixture = judged_.mixture_beyond_first(light, row.in_new_light);
   const SignLook beyond =
-      ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
+      ViewReadout(readout, scene, *chromaticity_, target, mixture).look(faced.veils_cd_m2[mixture]);
   error =
       error_of_level_beyond(first.look, row.look, beyond, row.view, {scene_.assessment.age_years});
 }
@@ -323,6 +384,7 @@ void SightsInLights::compare_with_first(const Readout& readout, const CompiledSc
 void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
                            const std::vector<size_t>& views) {
   const Readout readout(scene, totals);
+  chromaticity_.emplace(scene);
   std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
   for (const EyeTarget& target : scene.eye_targets) {
     const CompiledSign& face = scene.signs[target.sign];

@@ -4,11 +4,13 @@
 // has batches traced by others.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "actors/judge/assess/assessment.hpp"
 #include "actors/judge/assess/round_state.hpp"
+#include "actors/judge/assess/sign_chromaticity.hpp"
 #include "actors/judge/assess/stands.hpp"
 
 namespace luxodus {
@@ -48,11 +50,15 @@ class SightsInLights {
     size_t row, stand;
     uint32_t sign;
     std::vector<double> veils_cd_m2;  // veiling luminance of glare, by mixture
+    std::vector<std::vector<double>> veils_of_other_eyes;
   };
   RoundState round_state(int round, const std::vector<size_t>& views) const;
   void judge(const CompiledScene& scene, const Totals& totals, const std::vector<size_t>& views);
   void judge_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
                   const Faced& faced, size_t light);
+  /// The light of one view in a mixture, with the veil of some eyes.
+  using LookIn = std::function<SignLook(size_t mixture, double veil_cd_m2)>;
+  void judge_by_other_eyes(const LookIn& look_in, const Faced& faced, size_t light);
   static void judge_in_new_light(SightRow& row, const Sign& sign, SignLook look,
                                  const SightRules& rules);
   void compare_with_first(const Readout& readout, const CompiledScene& scene,
@@ -67,8 +73,9 @@ class SightsInLights {
   std::vector<std::vector<double>> errors_beyond_first_;  // by light and row; NaN: not known
   std::vector<Stand> stands_;
   std::vector<Faced> faced_;
-  std::vector<std::vector<bool>> open_;  // undecided; by light and faced view
-  std::vector<size_t> observing_;        // indices into stands_ of the round's observers
+  std::vector<std::vector<bool>> open_;           // undecided; by light and faced view
+  std::vector<size_t> observing_;                 // indices into stands_ of the round's observers
+  std::optional<SignChromaticity> chromaticity_;  // of the last round's scene
   int64_t paths_ = 0;
 };
 

@@ -346,9 +346,17 @@ struct EmphasisPoint {
   std::optional<glm::dvec3> facing;  // direction that the front of equipment faces
 };
 
+/// Eyes that signs are judged for beside those of the stated age.
+struct OtherEyes {
+  std::string name;                 // as the scene names them: "75", "protan"
+  std::optional<double> age_years;  // that of the assessment unless stated
+  bool protan = false;              // without cones for long wavelengths
+};
+
 /// Assumptions about people and smoke.
 struct AssessmentSettings {
   double age_years = 65;
+  std::vector<OtherEyes> other_eyes;
   std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
   double spacing_m = 2;                 // spacing of observers along routes
   bool smoke_expected = true;           // smoke may occur where signs are (EN 1838)
