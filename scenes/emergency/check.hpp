@@ -55,6 +55,7 @@ enum class RuleId {
   S6l,
   S6a,
   S8,
+  S8c,
   N1,
   N1m,
   N2,

@@ -51,8 +51,9 @@ bool surely_seen(const Sight& sight) {
 }
 
 bool has_legend(const SignFace& face) {
-  return std::count(face.colour.begin(), face.colour.end(), SignColour::white) > 0 &&
-         std::count(face.colour.begin(), face.colour.end(), SignColour::green) > 0;
+  return face.ground != other_colour &&
+         std::count(face.colour.begin(), face.colour.end(), face.legend) > 0 &&
+         std::count(face.colour.begin(), face.colour.end(), face.ground) > 0;
 }
 
 /// The levels of a view, and what is certain of them.
@@ -136,6 +137,34 @@ const char* name_of(SightVerdict verdict) {
       return "not assessed";
   }
   return "";
+}
+
+SignLook as_protan_eyes_see(SignLook look) {
+  const auto share_of = [](const Tristimulus& light) {
+    return light[1] > 0 ? std::max(0.0, protan_luminance(light) / light[1]) : 1.0;
+  };
+  const auto scale = [](Uncertain& luminance, double share) {
+    luminance.value *= share;
+    luminance.error *= share;
+  };
+  const ColoursAtEye& colours = look.colours;
+  const double legend = share_of(colours.legend), ground = share_of(colours.ground);
+  const double room = share_of(colours.room);
+  if (colours.difference != Tristimulus{}) {
+    look.difference.value = protan_luminance(colours.difference);
+    look.difference.error *= std::max(legend, ground);
+  }
+  scale(look.legend, legend);
+  scale(look.ground, ground);
+  const double face = share_of(colours.face);
+  // Of the surround no more is known than the light of the room, as of the veil.
+  look.silhouette = {(look.silhouette.value + look.beyond_cd_m2) * face - look.beyond_cd_m2 * room,
+                     look.silhouette.error * std::max(face, room)};
+  look.beyond_cd_m2 *= room;
+  scale(look.face, face);
+  scale(look.surround, room);
+  look.veil_cd_m2 *= room;
+  return look;
 }
 
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,

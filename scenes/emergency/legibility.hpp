@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "scenes/emergency/eyes.hpp"
 #include "scenes/emergency/remark.hpp"
 #include "scenes/emergency/sight.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
@@ -28,11 +29,16 @@ struct SignLook {
   /// Mean luminance of the whole face minus that of its surround, likewise without the light that
   /// smoke up to the face scatters into the eye.
   Uncertain silhouette;
+  double beyond_cd_m2 = 0;   // of the surround alone, likewise
   Uncertain face;            // mean luminance of the whole face
   double visible_share = 1;  // share of the face that nothing solid hides
   double transmission = 1;   // share of light that smoke between sign and eye lets pass
   double veil_cd_m2 = 0;     // veiling luminance of disability glare
+  ColoursAtEye colours;      // estimates; the luminances above do not depend on them
 };
+
+/// The same light as protan eyes see it. Luminances of light whose colour is not known are kept.
+SignLook as_protan_eyes_see(SignLook look);
 
 enum class SightVerdict { legible, visible, invisible, hidden, undecided, not_assessed };
 inline constexpr size_t sight_verdicts = static_cast<size_t>(SightVerdict::not_assessed) + 1;

@@ -9,6 +9,7 @@
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/light/signs/onset.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 
 namespace luxodus {
 
@@ -115,7 +116,7 @@ SupplyHours supply_of(const SceneDescription& scene) {
   for (const Emitter& e : scene.emitters)
     if (e.emergency_flux > 0) out.take(e.duration_s, e.name);
   for (const Sign& sign : scene.signs)
-    if (sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0)
+    if (sign.lighting == SignLighting::internal && max_emergency_cd_m2(sign) > 0)
       out.take(sign.duration_s, sign.name);
   return out;
 }

@@ -38,6 +38,7 @@ constexpr std::array kinds = std::to_array<RemarkKind>({
     {RemarkId::colour_boxes_unknown, "colour_boxes_unknown", ""},
     {RemarkId::one_luminance, "one_luminance", ""},
     {RemarkId::green_dark, "green_dark", ""},
+    {RemarkId::other_colours, "other_colours", "colours"},
     {RemarkId::height_unknown, "height_unknown", ""},
     {RemarkId::low_sign, "low_sign", ""},
     {RemarkId::no_sign_ahead, "no_sign_ahead", ""},

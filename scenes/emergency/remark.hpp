@@ -46,6 +46,7 @@ enum class RemarkId {
   colour_boxes_unknown,
   one_luminance,
   green_dark,
+  other_colours,
   height_unknown,
   low_sign,
   no_sign_ahead,

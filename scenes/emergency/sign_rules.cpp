@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
-#include "scenes/light/signs/sign_face.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 
 namespace luxodus {
 
@@ -23,7 +25,7 @@ struct Extremes {
 };
 
 /// Extremes of the brightness pattern over one colour; the pattern's mean is 1.
-Extremes pattern_of(const SignFace& face, SignColour colour) {
+Extremes pattern_of(const SignFace& face, ColourIndex colour) {
   Extremes e;
   for (size_t i = 0; i < face.relative_luminance.size(); ++i) {
     if (face.colour[i] != colour) continue;
@@ -44,15 +46,40 @@ Remark smoke_condition(const SceneDescription& scene) {
                                                 : RemarkId::no_smoke_expected);
 }
 
+/// The colours that ISO 7010 gives signs of escape.
+struct EscapeColours {
+  const FaceColour& white;
+  const FaceColour& green;
+  ColourIndex green_index;
+};
+/// None where one of them is missing.
+std::optional<EscapeColours> escape_colours(const Sign& sign) {
+  const auto white = safety_colour_of(sign, "white"), green = safety_colour_of(sign, "green");
+  if (!white || !green) return std::nullopt;
+  return EscapeColours{sign.colours[*white], sign.colours[*green], *green};
+}
+
+Remark other_colours(const Sign& sign) {
+  return remark(RemarkId::other_colours, colour_names(sign.colours));
+}
+
+/// Judged by name: the sign has other colours than signs of escape have.
+Check wrong_colours(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
+  Check check = not_assessed(rule_of(RuleId::S8c, codes), subject, other_colours(sign));
+  check.verdict = CheckVerdict::fail;
+  check.worst = sign.frame.origin;
+  return check;
+}
+
 /// If the mean is below the limit, so is the smallest value. A mean above the limit does not show
 /// that the smallest value is.
-Check smallest_green(const SceneDescription& scene, const Sign& sign, const Subject& subject,
-                     const CodeChoice& codes) {
+Check smallest_green(const SceneDescription& scene, const Sign& sign, const EscapeColours& colours,
+                     const Subject& subject, const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
-  const double mean = sign.emergency.green_cd_m2;
+  const double mean = colours.green.emergency_cd_m2;
   const bool mapped = !sign.face.relative_luminance.empty();
   Check check = judged(rule_of(RuleId::S1, codes), subject,
-                       mapped ? mean * pattern_of(sign.face, SignColour::green).least : mean,
+                       mapped ? mean * pattern_of(sign.face, colours.green_index).least : mean,
                        Limit{limit}, sign.frame.origin);
   check.conditions = {smoke_condition(scene)};
   if (!mapped && check.verdict == CheckVerdict::pass) {
@@ -66,8 +93,8 @@ Check evenness(const Sign& sign, const Subject& subject, const CodeChoice& codes
   if (sign.face.relative_luminance.empty())
     return not_assessed(rule_of(RuleId::S2, codes), subject, remark(RemarkId::one_luminance));
   double worst = 0;
-  for (const SignColour colour : {SignColour::white, SignColour::green}) {
-    const Extremes e = pattern_of(sign.face, colour);
+  for (size_t c = 0; c < sign.colours.size(); ++c) {
+    const Extremes e = pattern_of(sign.face, static_cast<ColourIndex>(c));
     if (e.most > 0)
       worst =
           std::max(worst, e.least > 0 ? e.most / e.least : std::numeric_limits<double>::infinity());
@@ -81,16 +108,17 @@ double luminous_mean(const Spectrum& s) {
 }
 
 /// Contrast of the mean luminances of the colours.
-std::vector<Check> contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
-  const double green = sign.emergency.green_cd_m2;
+Check contrast(const Sign& sign, const EscapeColours& colours, const Subject& subject,
+               const CodeChoice& codes) {
+  const double green = colours.green.emergency_cd_m2;
   if (!(green > 0))
-    return {not_assessed(rule_of(RuleId::S3, codes), subject, remark(RemarkId::green_dark))};
-  const double ratio = sign.emergency.white_cd_m2 / green;
+    return not_assessed(rule_of(RuleId::S3, codes), subject, remark(RemarkId::green_dark));
+  const double ratio = colours.white.emergency_cd_m2 / green;
   const bool low = ratio < min_contrast;
   Check check = judged(rule_of(RuleId::S3, codes), subject, ratio,
                        Limit{low ? min_contrast : max_contrast, low}, sign.frame.origin);
   check.conditions = {remark(RemarkId::contrast_of_means)};
-  return {check};
+  return check;
 }
 
 std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign, const Subject& subject,
@@ -111,10 +139,10 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign, con
 }
 
 /// Luminance of green on an externally lit face.
-Check lit_green(const SceneDescription& scene, const Sign& sign, const Subject& subject, double lux,
-                const CodeChoice& codes) {
+Check lit_green(const SceneDescription& scene, const Sign& sign, const EscapeColours& colours,
+                const Subject& subject, double lux, const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
-  const double mean = lux * luminous_mean(sign.green_reflectance) / std::numbers::pi;
+  const double mean = lux * luminous_mean(colours.green.reflectance) / std::numbers::pi;
   Check check = judged(rule_of(RuleId::S1, codes), subject, mean, Limit{limit}, sign.frame.origin);
   check.conditions = {smoke_condition(scene)};
   if (check.verdict == CheckVerdict::pass) {
@@ -124,12 +152,13 @@ Check lit_green(const SceneDescription& scene, const Sign& sign, const Subject& 
   return check;
 }
 
-Check reflected_contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
-  const double green = luminous_mean(sign.green_reflectance);
+Check reflected_contrast(const Sign& sign, const EscapeColours& colours, const Subject& subject,
+                         const CodeChoice& codes) {
+  const double green = luminous_mean(colours.green.reflectance);
   if (!(green > 0))
     return not_assessed(rule_of(RuleId::S3, codes), subject, remark(RemarkId::green_dark));
   // Rounded: reflectances are written with few digits, and their means are long sums.
-  const double ratio = std::round(luminous_mean(sign.white_reflectance) / green * 1e9) / 1e9;
+  const double ratio = std::round(luminous_mean(colours.white.reflectance) / green * 1e9) / 1e9;
   const bool low = ratio < min_contrast;
   Check check = judged(rule_of(RuleId::S3, codes), subject, ratio,
                        Limit{low ? min_contrast : max_contrast, low}, sign.frame.origin);
@@ -137,27 +166,45 @@ Check reflected_contrast(const Sign& sign, const Subject& subject, const CodeCho
   return check;
 }
 
+/// Rules for the light of the safety colour and of its contrast colour.
+std::vector<Check> colour_checks(const SceneDescription& scene, const Sign& sign,
+                                 const Subject& subject, double lux, const CodeChoice& codes) {
+  const auto colours = escape_colours(sign);
+  std::vector<Check> out;
+  const auto unknown = [&](RuleId id, Remark reason) {
+    out.push_back(not_assessed(rule_of(id, codes), subject, std::move(reason)));
+  };
+  if (!colours) out.push_back(wrong_colours(sign, subject, codes));
+  if (sign.lighting == SignLighting::photoluminescent) {
+    for (RuleId id : {RuleId::S1, RuleId::S3}) unknown(id, remark(RemarkId::glow_class_unknown));
+    return out;
+  }
+  const bool internal = sign.lighting == SignLighting::internal;
+  if (!colours)
+    unknown(RuleId::S1, other_colours(sign));
+  else
+    out.push_back(internal ? smallest_green(scene, sign, *colours, subject, codes)
+                           : lit_green(scene, sign, *colours, subject, lux, codes));
+  if (internal) out.push_back(evenness(sign, subject, codes));
+  if (!colours)
+    unknown(RuleId::S3, other_colours(sign));
+  else
+    out.push_back(internal ? contrast(sign, *colours, subject, codes)
+                           : reflected_contrast(sign, *colours, subject, codes));
+  if (!internal || !codes.has(Deviation::de_din_4844)) return out;
+  if (!colours)
+    unknown(RuleId::S5, other_colours(sign));
+  else
+    out.push_back(
+        judged(rule_of(RuleId::S5, codes), subject, colours->white.mains_cd_m2, sign.frame.origin));
+  return out;
+}
+
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
                              const Subject& subject, double lux, const LinesOfSight& seen,
                              const FloorUnder& floor_under, const FedLuminaires& fed,
                              const CodeChoice& codes) {
-  std::vector<Check> out;
-  if (sign.lighting == SignLighting::internal) {
-    out.push_back(smallest_green(scene, sign, subject, codes));
-    out.push_back(evenness(sign, subject, codes));
-    for (Check& check : contrast(sign, subject, codes)) out.push_back(std::move(check));
-    if (codes.has(Deviation::de_din_4844))
-      out.push_back(
-          judged(rule_of(RuleId::S5, codes), subject, sign.mains.white_cd_m2, sign.frame.origin));
-  }
-  if (sign.lighting == SignLighting::photoluminescent)
-    for (RuleId id : {RuleId::S1, RuleId::S3})
-      out.push_back(
-          not_assessed(rule_of(id, codes), subject, remark(RemarkId::glow_class_unknown)));
-  if (sign.lighting == SignLighting::external) {
-    out.push_back(lit_green(scene, sign, subject, lux, codes));
-    out.push_back(reflected_contrast(sign, subject, codes));
-  }
+  std::vector<Check> out = colour_checks(scene, sign, subject, lux, codes);
   if (sign.lighting == SignLighting::external)
     out.push_back(luminaire_near(rule_of(RuleId::S6l, codes), scene, subject, sign.frame.origin,
                                  false, seen, fed));

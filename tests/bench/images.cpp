@@ -196,8 +196,8 @@ SceneDescription room_with_sign(double voxel_edge) {
   sign.frame.origin = sign_at;
   sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
   sign.width_m = sign.height_m = sign.smallest_detail_m = 0.1;
-  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
-  sign.mains = {10, 0};
+  sign.face = {1, 1, {0}, {}};
+  sign.colours = white_and_green({10, 0});
   d.signs.push_back(sign);
   Observer observer;
   observer.name = "eye";

@@ -1,5 +1,7 @@
 // `luxodus assess` on a command line: refusals, the first lines of its output, the effect of
 // --strict.
+#include <nlohmann/json.hpp>
+
 #include "tests/examples/program_kit.hpp"
 
 using namespace luxodus::program;
@@ -151,4 +153,52 @@ TEST_CASE("nodes give an assessment the light of threads", "[program][assess][no
   const std::string by_threads = assessed("--threads 1");
   CHECK(has(by_threads, "exit"));
   CHECK(assessed("--nodes 3") == by_threads);
+}
+
+TEST_CASE("a red EXIT is assessed by NFPA 101 to the report, and by EN 1838 its colours fail",
+          "[program][assess]") {
+  const TemporaryFolder folder;
+  const std::string scene = std::string(LUX_SOURCE_DIR) + "/scenes/library/red_exit.toml";
+  const auto assessed = [&](const std::string& name, const std::string& options) {
+    const Outcome outcome =
+        run_luxodus(folder, "assess " + scene + " --scenario smoke --rounds 1 --out " +
+                                (folder / name).string() + " " + options);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(slurp(folder / name / "assessment.json"));
+  };
+  const auto verdict_of = [](const nlohmann::json& assessment, const std::string& rule) {
+    for (const auto& check : assessment["checks"])
+      if (check["rule"] == rule) return check["verdict"].get<std::string>();
+    return std::string();
+  };
+  const auto american = assessed("american", "");
+  CHECK(verdict_of(american, "N7") == "pass");
+  CHECK(verdict_of(american, "N7s") == "pass");
+  CHECK(american["signs"][0]["legend"] == "red");
+  CHECK(american["signs"][0]["ground"] == "white");
+  bool legible = false;
+  for (const auto& sight : american["sights"]) legible |= sight["verdict"] == "legible";
+  CHECK(legible);
+  // Protan eyes see a red legend darker.
+  size_t compared = 0;
+  for (const auto& sight : american["sights"]) {
+    if (!sight.contains("other_eyes")) continue;
+    const double level = sight["reading_level"]["value"],
+                 error = sight["reading_level"]["standard_error"];
+    const auto& protan = sight["other_eyes"][2];
+    CHECK(protan["eyes"] == "protan");
+    CHECK(sight["chromatic_difference"]["value"].get<double>() > 0);
+    if (!(level > 10 * error)) continue;
+    CHECK(protan["reading_level"]["value"].get<double>() < level);
+    CHECK(sight["other_eyes"][0]["reading_level"]["value"].get<double>() > level);
+    ++compared;
+  }
+  CHECK(compared > 0);
+  const std::string page = slurp(folder / "american" / "report.html");
+  CHECK(has(page, "red 40 / white 0"));
+  const auto european = assessed("european", "--rules en1838-2024");
+  CHECK(verdict_of(european, "S8c") == "fail");
+  CHECK(has(slurp(folder / "european" / "report.html"),
+            "its colours are red, white, not the green and white of ISO 7010"));
 }

@@ -291,6 +291,10 @@ TEST_CASE("the soot of a ball of flame absorbs the share of the closed form", "[
   check_library_scene("fire_in_a_box");
 }
 
+TEST_CASE("the red EXIT shines red, and its housing shows the light of the room", "[library]") {
+  check_library_scene("red_exit");
+}
+
 TEST_CASE("the auditorium gives the numbers of its long runs", "[library]") {
   check_library_scene("auditorium");
 }

@@ -67,11 +67,11 @@ void add_lamps(SceneDescription& scene, const Pose& pose) {
   sign.width_m = 0.6 * pose.scale;
   sign.height_m = 0.3 * pose.scale;
   sign.smallest_detail_m = 0.05 * pose.scale;
-  constexpr SignColour w = SignColour::white, g = SignColour::green;
+  constexpr ColourIndex w = 0, g = 1;
   sign.face.width = 4;
   sign.face.height = 2;
   sign.face.colour = {g, w, w, g, w, w, w, w};
-  sign.mains = {400, 100};
+  sign.colours = white_and_green({400, 100});
   scene.signs.push_back(sign);
   Observer observer;
   observer.name = "eye";

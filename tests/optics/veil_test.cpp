@@ -27,7 +27,7 @@ SceneDescription eye_in_smoke(double g) {
   sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
   // So small that all lines to it coincide.
   sign.width_m = sign.height_m = sign.smallest_detail_m = 1e-5;
-  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
+  sign.face = {1, 1, {0}, {}};
   scene.signs.push_back(sign);
   Observer observer;
   observer.name = "eye";

@@ -40,10 +40,9 @@ bool is_patient(const SceneDescription& d) {
     const double mirror = m.kind == MaterialKind::lambertian ? 0 : max_of(m.specular);
     if (max_of(m.reflectance) + mirror >= min_patience) return true;
   }
-  for (const Sign& s : d.signs) {
-    if (max_of(s.white_reflectance) >= min_patience) return true;
-    if (max_of(s.green_reflectance) >= min_patience) return true;
-  }
+  for (const Sign& s : d.signs)
+    for (const FaceColour& colour : s.colours)
+      if (max_of(colour.reflectance) >= min_patience) return true;
   for (const Medium& m : d.media) {
     if (keeps_light(m.optics)) return true;
     for (const Layer& l : m.layers)

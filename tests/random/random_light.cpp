@@ -1,6 +1,7 @@
 // Emitters and signs.
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 
 #include "scenes/light/geometry/primitives.hpp"
 #include "scenes/light/geometry/transform.hpp"
@@ -120,25 +121,29 @@ Result<SignFace> draw_face(Draw& draw, const Sign& sign) {
   Dice& dice = draw.dice;
   const int texels = dice.whole(8, 24);
   const int kind = dice.below(3);
-  const SignColour colour = dice.chance(0.5) ? SignColour::white : SignColour::green;
+  const ColourIndex colour = dice.chance(0.5) ? 0 : 1;
+  const auto ground = static_cast<ColourIndex>(1 - colour);
   if (kind == 0) return uniform_face(colour, sign.width_m, sign.height_m, texels);
   if (kind == 1) {
     const double letter = 0.5 * sign.height_m;
     return face_from_text("EXIT", sign.width_m, sign.height_m, letter, 0.15 * letter, 0.05 * letter,
-                          colour, 64);
+                          colour, ground, 64);
   }
+  std::vector<ColourIndex> places(sign.colours.size());
+  std::iota(places.begin(), places.end(), ColourIndex{0});
   SignFace face;
   face.width = texels;
   face.height = dice.whole(8, 24);
   face.legend = colour;
+  face.ground = ground;
   for (int i = 0; i < face.width * face.height; ++i)
-    face.colour.push_back(dice.one_of({SignColour::white, SignColour::green, SignColour::other}));
+    face.colour.push_back(dice.chance(0.3) ? other_colour : dice.any(places));
   if (dice.chance(0.5)) return face;
   Image map;
   map.width = map.height = 4;
   map.channels = 1;
   for (int i = 0; i < 16; ++i) map.texels.push_back(static_cast<float>(dice.between(0.05, 1)));
-  return with_luminance_map(std::move(face), map);
+  return with_luminance_map(std::move(face), sign.colours, map);
 }
 
 double draw_luminance(Draw& draw) {
@@ -151,10 +156,10 @@ void draw_lighting(Draw& draw, Sign& sign) {
   Dice& dice = draw.dice;
   sign.lighting = dice.one_of({internal, internal, external, photoluminescent});
   if (sign.lighting == external) return;
-  sign.mains.white_cd_m2 = draw_luminance(draw);
-  sign.mains.green_cd_m2 = draw_luminance(draw);
-  sign.emergency.white_cd_m2 = draw_luminance(draw);
-  sign.emergency.green_cd_m2 = draw_luminance(draw);
+  for (FaceColour& colour : sign.colours) {
+    colour.mains_cd_m2 = draw_luminance(draw);
+    colour.emergency_cd_m2 = draw_luminance(draw);
+  }
   if (sign.lighting != photoluminescent) return;
   const double end = dice.chance(0.3) ? 0 : 0.01;
   sign.decay = {{0, 1}, {60, 0.2}, {3600, end}};
@@ -194,14 +199,15 @@ void draw_signs(Draw& draw) {
     const glm::dvec3 facing = dice.direction();
     sign.frame = frame_facing(centre, facing).value();
     sign.angular_exponent = dice.chance(0.6) ? 0 : dice.one_of({0.5, 3.0, 20.0});
+    if (dice.chance(0.3)) sign.colours.push_back({.name = "red", .drawn = {0x9B, 0x24, 0x23}});
     draw_lighting(draw, sign);
     auto face = draw_face(draw, sign);
     if (!face.ok()) continue;
     sign.face = std::move(face).value();
-    sign.white_shape = draw_emission(draw);
-    sign.green_shape = draw_emission(draw);
-    sign.white_reflectance = draw_property(draw);
-    sign.green_reflectance = draw_property(draw);
+    for (FaceColour& colour : sign.colours) {
+      colour.shape = draw_emission(draw);
+      colour.reflectance = draw_property(draw);
+    }
     if (dice.chance(0.5)) sign.circuit = "circuit b";
     draw.scene.signs.push_back(std::move(sign));
   }

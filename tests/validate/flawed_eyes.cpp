@@ -52,7 +52,7 @@ std::shared_ptr<const CompiledScene> spoiled(const CompiledScene& scene, EyeFlaw
   }
   if (flaw == EyeFlaw::bright_sign) {
     for (CompiledSign& s : out->signs) {
-      for (double& r : s.white_radiance) r *= 1.03;
+      for (double& r : s.colours[0].radiance) r *= 1.03;
     }
   }
   if (flaw == EyeFlaw::bright_flames) {

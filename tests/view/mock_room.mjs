@@ -129,7 +129,7 @@ function texels(columns, rows) {
 }
 
 const face = { width: 0.6, height: 0.3, columns: 128, rows: 64, texels: texels(128, 64),
-  white: [160, 165, 170], green: [0.6, 46, 9], up: [0, 0, 1] };
+  colours: [[160, 165, 170], [0.6, 46, 9]], up: [0, 0, 1] };
 
 export function startState() {
   return {

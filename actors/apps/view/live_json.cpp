@@ -80,7 +80,7 @@ bool was_added(const SceneEdits& edits, bool is_sign, const std::string& name) {
 
 std::string texels_of(const SignFace& face) {
   std::string bytes;
-  for (const SignColour colour : face.colour) bytes.push_back(static_cast<char>(colour));
+  for (const ColourIndex colour : face.colour) bytes.push_back(static_cast<char>(colour));
   return base64(bytes);
 }
 
@@ -89,6 +89,9 @@ Json signs_json(const CompiledScene& scene, const SceneEdits& edits) {
   for (const CompiledSign& face : scene.signs) {
     if (face.back) continue;
     const Sign& sign = scene.description->signs[face.sign];
+    Json colours = Json::array();
+    for (const CompiledFaceColour& one : face.colours)
+      colours.push_back(colour(scene.bands, one.radiance));
     out.push_back({{"name", sign.name},
                    {"position", place(sign.frame.origin)},
                    {"facing", place(sign.frame.axes[2])},
@@ -99,8 +102,7 @@ Json signs_json(const CompiledScene& scene, const SceneEdits& edits) {
                    {"columns", sign.face.width},
                    {"rows", sign.face.height},
                    {"texels", texels_of(sign.face)},
-                   {"white", colour(scene.bands, face.white_radiance)},
-                   {"green", colour(scene.bands, face.green_radiance)},
+                   {"colours", std::move(colours)},
                    {"group", group_of_sign(sign.name)},
                    {"added", was_added(edits, true, sign.name)}});
   }

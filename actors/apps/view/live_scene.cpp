@@ -9,6 +9,7 @@
 #include "runtime/core/output_text.hpp"
 #include "scenes/light/geometry/transform.hpp"
 #include "scenes/light/signs/onset.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/signs/sign_light.hpp"
 #include "scenes/light/world/measurements.hpp"
 
@@ -113,11 +114,7 @@ Result<SceneDescription> dimmed_description(const SceneDescription& scene, const
     e.emergency_flux *= factor;
   }
   for (Sign& sign : out->signs) {
-    const double factor = factor_of(sign.group);
-    for (SignState* state : {&sign.mains, &sign.emergency}) {
-      state->white_cd_m2 *= factor;
-      state->green_cd_m2 *= factor;
-    }
+    scale_luminances(sign, factor_of(sign.group));
   }
   for (Medium& medium : out->media)
     if (medium.emission) medium.emission->power_w *= factor_of(medium.emission->group);

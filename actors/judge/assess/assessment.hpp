@@ -80,6 +80,8 @@ struct SightRow {
     Sight sight;
   };
   std::optional<Other> other;
+  /// What the other eyes of the scene read, in its order; empty where light does not decide.
+  std::vector<Sight> by_other_eyes;
 };
 
 /// A warning for the designer.

@@ -38,13 +38,21 @@ CsvTable checks_csv(const AssessmentRecord& assessment) {
   return table;
 }
 
+/// "75: legible; protan: invisible".
+std::string by_other_eyes(const SeenRecord& seen) {
+  std::string out;
+  for (const OtherEyesRecord& one : seen.other_eyes)
+    out += (out.empty() ? "" : "; ") + one.eyes + ": " + name_of(one.verdict);
+  return out;
+}
+
 /// From the luminances on.
 void add_seen(const SightRecord& sight, CsvTable& table) {
   const bool seen = sight.line_of_sight.seen;
   if (!sight.seen) {
     for (int i = 0; i < 11; ++i) table.empty_cell();
     table.cell(seen);
-    for (int i = 0; i < 4; ++i) table.empty_cell();
+    for (int i = 0; i < 6; ++i) table.empty_cell();
     return;
   }
   const LookRecord& look = sight.seen->look;
@@ -53,7 +61,8 @@ void add_seen(const SightRecord& sight, CsvTable& table) {
               look.reading_level.value, look.reading_level.error, look.seeing_level.value,
               sight.seen->extinction_per_m, sight.seen->jin.legible, seen,
               sight.seen->viewing_distance.within, sight.seen->margin.luminance,
-              sight.seen->margin.read_within_m, sight.seen->margin.seen_within_m);
+              sight.seen->margin.read_within_m, sight.seen->margin.seen_within_m,
+              look.chromatic_difference, by_other_eyes(*sight.seen));
 }
 
 CsvTable sights_csv(const AssessmentRecord& assessment) {
@@ -87,7 +96,9 @@ CsvTable sights_csv(const AssessmentRecord& assessment) {
                   "viewing_distance.within",
                   "margin.luminance",
                   "margin.read_within.value",
-                  "margin.seen_within.value"});
+                  "margin.seen_within.value",
+                  "chromatic_difference.value",
+                  "other_eyes.verdict"});
   for (const SightRecord& sight : assessment.sights) {
     table.cells(english().subject(sight.from), sight.along_m, sight.stands_for.value,
                 sight.eye_height_m, sight.eye.x, sight.eye.y, sight.eye.z, sight.sign,

@@ -74,6 +74,11 @@ LuminaireRecord luminaire_of(const Emitter& e) {
   return out;
 }
 
+/// "" of no colour.
+std::string name_at(const Sign& sign, ColourIndex colour) {
+  return colour < sign.colours.size() ? sign.colours[colour].name : "";
+}
+
 SignRecord sign_of(const Sign& s) {
   SignRecord out{.name = s.name,
                  .position = s.frame.origin,
@@ -87,10 +92,15 @@ SignRecord sign_of(const Sign& s) {
                  .lighting = word_of(s.lighting),
                  .circuit = s.circuit,
                  .ifc_guid = s.ifc_guid,
-                 .face = {}};
-  if (s.lighting != SignLighting::external)
-    out.face = {s.mains.white_cd_m2, s.mains.green_cd_m2, s.emergency.white_cd_m2,
-                s.emergency.green_cd_m2};
+                 .legend = name_at(s, s.face.legend),
+                 .ground = name_at(s, s.face.ground),
+                 .colours = {}};
+  for (const FaceColour& colour : s.colours) {
+    FaceColourRecord& record = out.colours.emplace_back(FaceColourRecord{colour.name, {}, {}});
+    if (s.lighting == SignLighting::external) continue;
+    record.mains_cd_m2 = colour.mains_cd_m2;
+    record.emergency_cd_m2 = colour.emergency_cd_m2;
+  }
   return out;
 }
 

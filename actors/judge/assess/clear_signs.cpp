@@ -1,5 +1,7 @@
 #include "actors/judge/assess/clear_signs.hpp"
 
+#include "scenes/light/signs/sign_colours.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -13,8 +15,7 @@ constexpr double seen_face = 0.5;
 
 /// A sign that is lit from within and dark in an emergency guides nobody.
 bool is_dark(const Sign& sign) {
-  return sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 == 0 &&
-         sign.emergency.green_cd_m2 == 0;
+  return sign.lighting == SignLighting::internal && max_emergency_cd_m2(sign) == 0;
 }
 
 /// Share of the light from the middle of a face to an eye that panes transmit.

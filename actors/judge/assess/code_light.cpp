@@ -6,6 +6,7 @@
 
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/light/signs/onset.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 #include "scenes/light/transport/surroundings.hpp"
 #include "scenes/light/world/design.hpp"
@@ -69,10 +70,7 @@ SceneDescription after_circuits(const SceneDescription& scene, const Scenario& s
   };
   change_emergency_light(
       out, [&](Emitter& e) { e.emergency_flux *= factor(e.circuit); },
-      [&](Sign& sign) {
-        sign.emergency.white_cd_m2 *= factor(sign.circuit);
-        sign.emergency.green_cd_m2 *= factor(sign.circuit);
-      });
+      [&](Sign& sign) { scale_luminances(sign, 1, factor(sign.circuit)); });
   return out;
 }
 
@@ -86,7 +84,7 @@ SceneDescription as_switched(const SceneDescription& scene, const Scenario& stat
         if (is_exhausted(e.duration_s, seconds)) e.emergency_flux = 0;
       },
       [&](Sign& sign) {
-        if (is_exhausted(sign.duration_s, seconds)) sign.emergency = {};
+        if (is_exhausted(sign.duration_s, seconds)) scale_luminances(sign, 1, 0);
       });
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "actors/judge/assess/aged_light.hpp"
 #include "scenes/emergency/rule_limits.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/transport/compile.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 
@@ -205,7 +206,7 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario, Remar
     raised += factor > 1 ? 1 : 0;
   }
   for (const Sign& sign : scene.signs)
-    signs += sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0 &&
+    signs += sign.lighting == SignLighting::internal && max_emergency_cd_m2(sign) > 0 &&
                      factor_of(scenario.circuits, sign.circuit, 1) == 0
                  ? 1
                  : 0;
@@ -214,13 +215,19 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario, Remar
   if (signs > 0) remarks.push_back(remark(RemarkId::circuits_switch_off_signs, signs));
 }
 
+bool shines(const Sign& sign, const Scenario& scenario) {
+  for (size_t c = 0; c < sign.colours.size(); ++c)
+    if (scenario_luminance(sign, static_cast<ColourIndex>(c), scenario) > 0) return true;
+  return false;
+}
+
 /// A warning that signs which are lit from within are dark in this state; none if none is.
 std::optional<Remark> dark_signs(const SceneDescription& scene, const Scenario& scenario) {
   std::string first;
   int more = -1;
   for (const Sign& sign : scene.signs) {
-    if (sign.lighting != SignLighting::internal || !(sign.emergency.white_cd_m2 > 0) ||
-        scenario_luminance(sign, SignColour::white, scenario) > 0)
+    if (sign.lighting != SignLighting::internal || !(max_emergency_cd_m2(sign) > 0) ||
+        shines(sign, scenario))
       continue;
     if (++more == 0) first = sign.name;
   }

@@ -58,11 +58,13 @@ LookRecord look_of(const SignLook& look, const Sight& sight) {
           .glare_veil_cd_m2 = look.veil_cd_m2,
           .visible_share = look.visible_share,
           .reading_level = sight.reading_level,
-          .seeing_level = sight.seeing_level};
+          .seeing_level = sight.seeing_level,
+          .chromatic_difference = chromatic_difference(look.colours.legend, look.colours.ground)};
 }
 
 /// None of a sign that is hidden or dark.
-std::optional<SeenRecord> seen_of(const SightRow& row, const SightRules& rules) {
+std::optional<SeenRecord> seen_of(const SightRow& row, const AssessmentSettings& people,
+                                  const SightRules& rules) {
   if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
     return std::nullopt;
   const Reach reach = reach_of(row.view, row.look, rules);
@@ -73,14 +75,21 @@ std::optional<SeenRecord> seen_of(const SightRow& row, const SightRules& rules) 
       .margin = {row.sight.reading_level.value / level_read, reach.read_m, reach.seen_m},
       .jin = {row.sight.jin_m, row.sight.jin_legible},
       .viewing_distance = {row.sight.viewing.allowed_oblique_m, row.sight.viewing.within},
-      .other_light = {}};
+      .other_light = {},
+      .other_eyes = {}};
   if (row.other)
     out.other_light = {!row.in_new_light, row.other->sight.verdict, row.other->sight.reason,
                        look_of(row.other->look, row.other->sight)};
+  for (size_t e = 0; e < row.by_other_eyes.size(); ++e) {
+    const Sight& sight = row.by_other_eyes[e];
+    out.other_eyes.push_back(
+        {people.other_eyes[e].name, sight.verdict, sight.reason, sight.reading_level});
+  }
   return out;
 }
 
-SightRecord sight_of(const SightRow& row, const SightRules& rules) {
+SightRecord sight_of(const SightRow& row, const AssessmentSettings& people,
+                     const SightRules& rules) {
   return {.from = row.from,
           .stands_for = {row.stands_for, row.from.kind == SubjectKind::route ? "m" : "m2"},
           .along_m = row.along_m,
@@ -97,7 +106,7 @@ SightRecord sight_of(const SightRow& row, const SightRules& rules) {
           .detail_arcmin = row.view.detail_arcmin,
           .line_of_sight = {row.line.distance_m, row.line.clear, row.line.extinction,
                             row.line.visibility_m, row.line.seen},
-          .seen = seen_of(row, rules)};
+          .seen = seen_of(row, people, rules)};
 }
 
 /// A number that is not finite is none, as in JSON.
@@ -157,8 +166,13 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
   for (const SightRow& row : assessment.sights) ++out.sight_counts[name_of(row.sight.verdict)];
   out.verdict = {first_sentence(out, words_of(counts)), words_of(counts), CountsRecord::of(counts)};
   out.not_assessed = not_assessed_of(assessment);
-  out.people = {scene.assessment.age_years, scene.assessment.spacing_m,
-                scene.assessment.irritant_smoke, assessment.place_unknown};
+  out.people = {scene.assessment.age_years,
+                scene.assessment.spacing_m,
+                scene.assessment.irritant_smoke,
+                assessment.place_unknown,
+                {}};
+  for (const OtherEyes& eyes : scene.assessment.other_eyes)
+    out.people.other_eyes.push_back(eyes.name);
   out.method = {.seed = assessment.seed,
                 .eye_paths = assessment.paths,
                 .seconds = assessment.seconds,
@@ -167,7 +181,8 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
   for (const Check& check : assessment.checks) out.checks.push_back(check_of(check));
   const SightRules rules{.eye = {scene.assessment.age_years},
                          .place_unknown = assessment.place_unknown};
-  for (const SightRow& row : assessment.sights) out.sights.push_back(sight_of(row, rules));
+  for (const SightRow& row : assessment.sights)
+    out.sights.push_back(sight_of(row, scene.assessment, rules));
   out.sweep = assessment.sweep;
   out.over_time = assessment.over_time;
   for (const StateWarning& one : assessment.warnings) out.warnings.push_back(warning_of(one));

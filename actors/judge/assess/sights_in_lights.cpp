@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -70,25 +71,35 @@ Factors factors_of(const CompiledScene& scene, const std::vector<GroupMixture>& 
   return out;
 }
 
-/// Veiling luminance in the eye [cd/m2], by mixture, from all emitters except the sign itself. Each
-/// part of an extended emitter, such as a flame, counts with its own direction and with the smoke
-/// before it.
-std::vector<double> veils_of(const Building& building, const GeometryAccess& access,
-                             const SightRow& row, uint32_t sign, double age_years,
-                             const Factors& factors) {
+/// Veiling luminance in the eye [cd/m2], by age and mixture, from all emitters except the sign
+/// itself. Each part of an extended emitter, such as a flame, counts with its own direction and
+/// with the smoke before it.
+std::vector<std::vector<double>> veils_of(const Building& building, const GeometryAccess& access,
+                                          const SightRow& row, uint32_t sign,
+                                          const std::vector<double>& ages, const Factors& factors) {
   const CompiledScene& scene = building.scene();
   const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
-  std::vector<double> veils(factors.size(), 0.0);
+  std::vector<std::vector<double>> veils(ages.size(), std::vector<double>(factors.size(), 0.0));
   for (const ArrivingLight& light :
        direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
     const CompiledEmitter& emitter = scene.emitters[light.emitter];
     if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
-    const double part = light.illuminance_lx *
-                        veil_per_lux(angle_deg(glm::dvec3(light.direction), gaze), age_years);
-    for (size_t m = 0; m < veils.size(); ++m)
-      veils[m] += part * factors[m][static_cast<size_t>(emitter.group)];
+    const double away_deg = angle_deg(glm::dvec3(light.direction), gaze);
+    for (size_t a = 0; a < ages.size(); ++a) {
+      const double part = light.illuminance_lx * veil_per_lux(away_deg, ages[a]);
+      for (size_t m = 0; m < factors.size(); ++m)
+        veils[a][m] += part * factors[m][static_cast<size_t>(emitter.group)];
+    }
   }
   return veils;
+}
+
+/// Ages of the eyes that are judged: those of the assessment first, then the others.
+std::vector<double> ages_of(const AssessmentSettings& people) {
+  std::vector<double> ages{people.age_years};
+  for (const OtherEyes& eyes : people.other_eyes)
+    ages.push_back(eyes.age_years.value_or(people.age_years));
+  return ages;
 }
 
 }  // namespace
@@ -116,6 +127,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
   if (!made) return made.problem();
   const Building& building = *made.value();
   const Factors factors = factors_of(building.scene(), judged_.mixtures());
+  const std::vector<double> ages = ages_of(scene_.assessment);
   stands_ = stands_of(scene_, observers_);
   if (stands_.size() * scene_.signs.size() > limits::sights)
     return problem_in(scene_.file,
@@ -139,12 +151,11 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
       if (stuck) row.sight.reason = remark(RemarkId::eye_in_solid);
       if (seen > 0 && !stuck) {
         row.sight.verdict = SightVerdict::undecided;
-        faced[i].push_back(
-            {rows[i].size(),
-             i,
-             s,
-             veils_of(building, access, row, s, scene_.assessment.age_years, factors),
-             {}});
+        auto veils_by_age = veils_of(building, access, row, s, ages, factors);
+        Faced& view = faced[i].emplace_back(
+            Faced{rows[i].size(), i, s, std::move(veils_by_age.front()), {}, {}});
+        view.veils_of_other_eyes.assign(std::make_move_iterator(veils_by_age.begin() + 1),
+                                        std::make_move_iterator(veils_by_age.end()));
         const std::vector<double>& veils = faced[i].back().veils_cd_m2;
         const auto of_lights = static_cast<std::ptrdiff_t>(judged_.lights_mixtures());
         row.look.veil_cd_m2 = *std::max_element(veils.begin(), veils.begin() + of_lights);
@@ -193,19 +204,33 @@ RoundState SightsInLights::round_state(int round, const std::vector<size_t>& vie
   return out;
 }
 
+SignLook SightsInLights::look_in(const Faced& faced, size_t mixture, double veil_cd_m2) const {
+  const SignFace& face = scene_.signs[faced.sign].face;
+  const ViewLight light = faced.light[mixture].mean();
+  SignLook look = look_of(face, light, veil_cd_m2);
+  const size_t legend = face.legend_part();
+  look.colours =
+      chromaticity_->at_eye(faced.sign, arrived(light[legend]), arrived(light[1 - legend]));
+  return look;
+}
+
 SignLook SightsInLights::look_in(const Faced& faced, size_t mixture) const {
-  return look_of(scene_.signs[faced.sign].face, faced.light[mixture].mean(),
-                 faced.veils_cd_m2[mixture]);
+  return look_in(faced, mixture, faced.veils_cd_m2[mixture]);
+}
+
+SightRules SightsInLights::rules_for(double age_years) const {
+  return {{age_years},
+          scene_.assessment.irritant_smoke.value_or(false),
+          sure_errors_,
+          options_.place_unknown};
 }
 
 /// Judges in aged light and, if luminaires age, in new light; the worse verdict counts.
 void SightsInLights::judge_view(const Faced& faced, size_t light) {
-  const SightRules rules{{scene_.assessment.age_years},
-                         scene_.assessment.irritant_smoke.value_or(false),
-                         sure_errors_,
-                         options_.place_unknown};
+  const SightRules rules = rules_for(scene_.assessment.age_years);
   const Sign& sign = scene_.signs[faced.sign];
   SightRow& row = rows_[light][faced.row];
+  judge_by_other_eyes(faced, light);
   row.look = look_in(faced, judged_.aged_mixture(light));
   row.sight = judge_sight(sign, row.view, row.look, rules);
   row.in_new_light = false;
@@ -216,6 +241,32 @@ void SightsInLights::judge_view(const Faced& faced, size_t light) {
   if (!judged_.ageing.new_light_known && row.sight.verdict == SightVerdict::legible) {
     row.sight.verdict = SightVerdict::not_assessed;
     row.sight.reason = remark(RemarkId::initial_flux_unknown);
+  }
+}
+
+/// From the same paths: other eyes have other thresholds and veils, protan ones other luminances.
+void SightsInLights::judge_by_other_eyes(const Faced& faced, size_t light) {
+  SightRow& row = rows_[light][faced.row];
+  const AssessmentSettings& people = scene_.assessment;
+  row.by_other_eyes.clear();
+  for (size_t e = 0; e < people.other_eyes.size(); ++e) {
+    const OtherEyes& eyes = people.other_eyes[e];
+    const SightRules rules = rules_for(eyes.age_years.value_or(people.age_years));
+    const auto judged = [&](size_t mixture) {
+      const SignLook look = look_in(faced, mixture, faced.veils_of_other_eyes[e][mixture]);
+      return judge_sight(scene_.signs[faced.sign], row.view,
+                         eyes.protan ? as_protan_eyes_see(look) : look, rules);
+    };
+    Sight sight = judged(judged_.aged_mixture(light));
+    if (judged_.ageing.any()) {
+      Sight as_new = judged(judged_.new_mixture(light));
+      if (is_worse(as_new, sight)) sight = std::move(as_new);
+    }
+    if (!judged_.ageing.new_light_known && sight.verdict == SightVerdict::legible) {
+      sight.verdict = SightVerdict::not_assessed;
+      sight.reason = remark(RemarkId::initial_flux_unknown);
+    }
+    row.by_other_eyes.push_back(std::move(sight));
   }
 }
 
@@ -255,6 +306,7 @@ void SightsInLights::pool(const Readout& readout, const CompiledScene& scene,
 void SightsInLights::judge(const CompiledScene& scene, const Totals& totals, double paths,
                            const std::vector<size_t>& views) {
   const Readout readout(scene, totals);
+  chromaticity_.emplace(scene);
   std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
   for (const EyeTarget& target : scene.eye_targets) {
     const CompiledSign& face = scene.signs[target.sign];

@@ -4,11 +4,13 @@
 // has batches traced by others.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "actors/judge/assess/assessment.hpp"
 #include "actors/judge/assess/round_state.hpp"
+#include "actors/judge/assess/sign_chromaticity.hpp"
 #include "actors/judge/assess/stands.hpp"
 #include "actors/judge/assess/view_light.hpp"
 
@@ -51,7 +53,8 @@ class SightsInLights {
     size_t row, stand;
     uint32_t sign;
     std::vector<double> veils_cd_m2;  // veiling luminance of glare, by mixture
-    std::vector<PooledLight> light;   // of all rounds, by mixture; empty before the first
+    std::vector<std::vector<double>> veils_of_other_eyes;
+    std::vector<PooledLight> light;  // of all rounds, by mixture; empty before the first
   };
   RoundState round_state(int round, const std::vector<size_t>& views) const;
   /// Adds the light of a round to a view's.
@@ -59,8 +62,12 @@ class SightsInLights {
             double paths, Faced& faced) const;
   void judge(const CompiledScene& scene, const Totals& totals, double paths,
              const std::vector<size_t>& views);
+  /// With the veil of some eyes.
+  SignLook look_in(const Faced& faced, size_t mixture, double veil_cd_m2) const;
   SignLook look_in(const Faced& faced, size_t mixture) const;
+  SightRules rules_for(double age_years) const;
   void judge_view(const Faced& faced, size_t light);
+  void judge_by_other_eyes(const Faced& faced, size_t light);
   static void judge_in_new_light(SightRow& row, const Sign& sign, SignLook look,
                                  const SightRules& rules);
   void compare_with_first(const Faced& faced, size_t light);
@@ -74,9 +81,10 @@ class SightsInLights {
   std::vector<std::vector<double>> errors_beyond_first_;  // by light and row; NaN: not known
   std::vector<Stand> stands_;
   std::vector<Faced> faced_;
-  double sure_errors_ = 0;               // as in SightRules
-  std::vector<std::vector<bool>> open_;  // undecided; by light and faced view
-  std::vector<size_t> observing_;        // indices into stands_ of the round's observers
+  double sure_errors_ = 0;                        // as in SightRules
+  std::vector<std::vector<bool>> open_;           // undecided; by light and faced view
+  std::vector<size_t> observing_;                 // indices into stands_ of the round's observers
+  std::optional<SignChromaticity> chromaticity_;  // of the last round's scene
   int64_t paths_ = 0;
 };
 

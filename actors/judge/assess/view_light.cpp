@@ -9,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr size_t white = 0, green = 1, surround = 2;
+constexpr size_t surround = 2;
 
 /// Error propagation for independent samples, to first order.
 Uncertain plus(const Uncertain& a, const Uncertain& b) {
@@ -59,34 +59,43 @@ ViewLight read_view(const Readout& readout, const CompiledScene& scene, const Ey
                  whole(readout, scene, bin, EyeQuantity::visible)};
     if (scene.mixtures.empty()) continue;
     // Transmission and occlusion are the same in all light.
-    const int group = part == white ? sign.white_group : sign.green_group;
-    out[part].own = times(scene.mixtures[mixture][static_cast<size_t>(group)], out[part].own);
+    if (part != surround && sign.parts[part] != other_colour) {
+      const auto group = static_cast<size_t>(sign.colours[sign.parts[part]].group);
+      out[part].own = times(scene.mixtures[mixture][group], out[part].own);
+    }
     out[part].reflected = mixed(readout, scene, bin, mixture, MixtureEyeQuantity::reflected);
     out[part].at_eye = mixed(readout, scene, bin, mixture, MixtureEyeQuantity::at_eye);
   }
   return out;
 }
 
+ArrivedLight arrived(const PartLight& part) {
+  const double passed = part.transmission.value;
+  const double own = part.own.value * passed, reflected = part.reflected.value * passed;
+  // Their noise may exceed the sum.
+  return {own, reflected, std::max(0.0, part.at_eye.value - own - reflected)};
+}
+
 SignLook look_of(const SignFace& face, const ViewLight& light, double veil_cd_m2) {
-  const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
-  const double all = std::max(w + g, 1e-12);
-  const auto of_face = [&](const Uncertain& of_white, const Uncertain& of_green) {
-    return plus(times(w / all, of_white), times(g / all, of_green));
+  const std::array<double, 2> share = part_shares(face);
+  const double all = std::max(share[0] + share[1], 1e-12);
+  const auto of_face = [&](const Uncertain& a, const Uncertain& b) {
+    return plus(times(share[0] / all, a), times(share[1] / all, b));
   };
-  const size_t legend = face.legend == SignColour::white ? white : green;
-  const size_t ground = legend == white ? green : white;
+  const size_t legend = face.legend_part(), ground = 1 - legend;
   SignLook look;
   look.legend = light[legend].at_eye;
   look.ground = light[ground].at_eye;
-  look.face = of_face(light[white].at_eye, light[green].at_eye);
+  look.face = of_face(light[0].at_eye, light[1].at_eye);
   look.surround = light[surround].at_eye;
-  look.visible_share = of_face(light[white].visible, light[green].visible).value;
-  const double passed = of_face(light[white].transmission, light[green].transmission).value;
+  look.visible_share = of_face(light[0].visible, light[1].visible).value;
+  const double passed = of_face(light[0].transmission, light[1].transmission).value;
   look.transmission = look.visible_share > 0 ? passed / look.visible_share : 0;
   look.veil_cd_m2 = veil_cd_m2;
   look.difference = minus(arriving(light[legend]), arriving(light[ground]));
+  look.beyond_cd_m2 = light[surround].reflected.value;
   look.silhouette =
-      minus(of_face(arriving(light[white]), arriving(light[green])), light[surround].reflected);
+      minus(of_face(arriving(light[0]), arriving(light[1])), light[surround].reflected);
   return look;
 }
 

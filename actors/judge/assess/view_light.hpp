@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "actors/judge/assess/sign_chromaticity.hpp"
 #include "scenes/emergency/legibility.hpp"
 #include "scenes/light/transport/readout.hpp"
 
@@ -22,14 +23,18 @@ struct PartLight {
   }
 };
 
-/// Of white, green and surround.
+/// Of the two parts of a face (SignFace::parts), and of its surround.
 using ViewLight = std::array<PartLight, 3>;
 
 /// The light of a round in one mixture of source groups; without mixtures, in all light.
 ViewLight read_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
                     size_t mixture);
 
-/// What arrives at the eye from a sign with this face. `veil_cd_m2`: of disability glare.
+/// What arrives at the eye from a part of a face, for the estimate of its colour.
+ArrivedLight arrived(const PartLight& part);
+
+/// What arrives at the eye from a sign with this face, but for its colours. `veil_cd_m2`: of
+/// disability glare.
 SignLook look_of(const SignFace& face, const ViewLight& light, double veil_cd_m2);
 
 namespace limits {

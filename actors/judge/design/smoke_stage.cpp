@@ -6,6 +6,7 @@
 #include "actors/judge/assess/over_time.hpp"
 #include "actors/judge/design/smoke_race.hpp"
 #include "runtime/core/clock.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/transport/compile.hpp"
 
 namespace luxodus {
@@ -14,11 +15,7 @@ namespace {
 
 std::shared_ptr<const SceneDescription> with_bright_signs(const SceneDescription& scene) {
   auto out = std::make_shared<SceneDescription>(scene);
-  for (Sign& sign : out->signs)
-    for (SignState* state : {&sign.mains, &sign.emergency}) {
-      state->white_cd_m2 *= brighter_signs;
-      state->green_cd_m2 *= brighter_signs;
-    }
+  for (Sign& sign : out->signs) scale_luminances(sign, brighter_signs);
   return out;
 }
 

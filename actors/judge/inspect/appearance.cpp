@@ -6,6 +6,7 @@
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
 #include "scenes/light/signs/legend_size.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/signs/sign_light.hpp"
 
 namespace luxodus {
@@ -20,7 +21,7 @@ constexpr double black_below = 0.01;
 /// 17398); more is the luminance of an internally lit sign.
 constexpr double max_glow_cd_m2 = 10;
 constexpr double max_lit_cd_m2 = 5000;
-/// Limits on white over green (EN 1838: 5 to 15).
+/// Limits on white over green (EN 1838: 5 to 15), and the lower one on any legend and its ground.
 constexpr double min_mains_contrast = 2, max_mains_contrast = 50;
 /// Share of a sign's shorter side; the details of pictograms are a tenth of it.
 constexpr double large_detail = 0.34;
@@ -37,10 +38,22 @@ void tell_of(const Sign& sign, Severity severity, const std::string& what, Findi
   out.push_back({severity, "sign light", {sign.place, "sign \"" + sign.name + "\" " + what}});
 }
 
-/// Inspects the luminances of a self-luminous sign in one operation.
-void inspect_state(const Sign& sign, const SignState& state, const char* operation, Findings& out) {
-  const double white = state.white_cd_m2, green = state.green_cd_m2;
-  if (white == 0 && green == 0) return;
+/// White and green, where these are all colours of a sign: rules and habits are known of them.
+struct WhiteGreen {
+  const FaceColour& white;
+  const FaceColour& green;
+};
+std::optional<WhiteGreen> white_green_of(const Sign& sign) {
+  const auto white = safety_colour_of(sign, "white"), green = safety_colour_of(sign, "green");
+  if (!white || !green || sign.colours.size() != 2) return std::nullopt;
+  return WhiteGreen{sign.colours[*white], sign.colours[*green]};
+}
+
+using Luminance = double FaceColour::*;
+
+/// Whether white and green of a self-luminous sign are as bright as each other should be.
+void inspect_contrast(const Sign& sign, double white, double green, const char* operation,
+                      Findings& out) {
   if (green > white)
     return tell_of(sign, Severity::warning,
                    fmt::format("has green of {:.4g} cd/m2 and white of {:.4g} cd/m2 in {} "
@@ -59,35 +72,66 @@ void inspect_state(const Sign& sign, const SignState& state, const char* operati
                         "for 5 to 15 times; is one of them in another unit?",
                         white / green, operation),
             out);
-  if (white > max_lit_cd_m2)
+}
+
+/// Whether legend and ground of a sign of other colours differ enough to be read.
+void inspect_legend(const Sign& sign, Luminance luminance, const char* operation, Findings& out) {
+  if (sign.face.ground == other_colour) return;
+  const FaceColour &legend = sign.colours[sign.face.legend],
+                   &ground = sign.colours[sign.face.ground];
+  const double a = legend.*luminance, b = ground.*luminance;
+  if (std::max(a, b) >= min_mains_contrast * std::min(a, b)) return;
+  tell_of(sign, Severity::warning,
+          fmt::format("has {} of {:.4g} cd/m2 on {} of {:.4g} cd/m2 in {} operation: its legend "
+                      "hardly stands out",
+                      legend.name, a, ground.name, b, operation),
+          out);
+}
+
+/// Inspects the luminances of a self-luminous sign in one operation.
+void inspect_state(const Sign& sign, Luminance luminance, const char* operation, Findings& out) {
+  const auto darker = [&](const FaceColour& a, const FaceColour& b) {
+    return a.*luminance < b.*luminance;
+  };
+  const FaceColour& brightest = *std::max_element(sign.colours.begin(), sign.colours.end(), darker);
+  const double most = brightest.*luminance;
+  if (most == 0) return;
+  if (const auto pair = white_green_of(sign))
+    inspect_contrast(sign, pair->white.*luminance, pair->green.*luminance, operation, out);
+  else
+    inspect_legend(sign, luminance, operation, out);
+  if (most > max_lit_cd_m2)
     tell_of(sign, Severity::warning,
-            fmt::format("has white of {:.4g} cd/m2 in {} operation, as bright as a lamp: is it in "
+            fmt::format("has {} of {:.4g} cd/m2 in {} operation, as bright as a lamp: is it in "
                         "mcd/m2?",
-                        white, operation),
+                        brightest.name, most, operation),
             out);
 }
 
 void inspect_internal(const Sign& sign, Findings& out) {
-  const double mains = sign.mains.white_cd_m2, emergency = sign.emergency.white_cd_m2;
-  if (emergency == 0 && sign.emergency.green_cd_m2 == 0)
-    tell_of(sign, Severity::warning,
-            "has luminances of 0 in emergency operation: it is dark when the mains fail", out);
-  else if (mains > 0 && emergency > mains)
-    tell_of(sign, Severity::warning,
-            fmt::format("is brighter in emergency operation ({:.4g} cd/m2 of white) than with the "
-                        "mains ({:.4g} cd/m2): are they swapped?",
-                        emergency, mains),
-            out);
+  if (max_emergency_cd_m2(sign) == 0)
+    return tell_of(sign, Severity::warning,
+                   "has luminances of 0 in emergency operation: it is dark when the mains fail",
+                   out);
+  for (const FaceColour& colour : sign.colours) {
+    if (!(colour.mains_cd_m2 > 0 && colour.emergency_cd_m2 > colour.mains_cd_m2)) continue;
+    return tell_of(sign, Severity::warning,
+                   fmt::format("is brighter in emergency operation ({:.4g} cd/m2 of {}) than with "
+                               "the mains ({:.4g} cd/m2): are they swapped?",
+                               colour.emergency_cd_m2, colour.name, colour.mains_cd_m2),
+                   out);
+  }
 }
 
 void inspect_glow(const Sign& sign, Findings& out) {
-  if (sign.emergency.white_cd_m2 > max_glow_cd_m2)
-    tell_of(sign, Severity::warning,
-            fmt::format("is photoluminescent and has {:.4g} cd/m2 of white at the failure, as much "
-                        "as a sign that is lit from within: such faces give a few cd/m2 (is it in "
-                        "mcd/m2?)",
-                        sign.emergency.white_cd_m2),
-            out);
+  for (const FaceColour& colour : sign.colours)
+    if (colour.emergency_cd_m2 > max_glow_cd_m2)
+      tell_of(sign, Severity::warning,
+              fmt::format("is photoluminescent and has {:.4g} cd/m2 of {} at the failure, as much "
+                          "as a sign that is lit from within: such faces give a few cd/m2 (is it "
+                          "in mcd/m2?)",
+                          colour.emergency_cd_m2, colour.name),
+              out);
   if (sign.decay.empty()) return;
   if (sign.decay.front().y != 1)
     tell_of(sign, Severity::warning,
@@ -142,8 +186,9 @@ void inspect_detail(const Sign& sign, Findings& out) {
 }
 
 void inspect_face(const Sign& sign, Findings& out) {
-  const double white = luminous_mean(sign.white_reflectance),
-               green = luminous_mean(sign.green_reflectance);
+  const auto pair = white_green_of(sign);
+  const double white = pair ? luminous_mean(pair->white.reflectance) : 1;
+  const double green = pair ? luminous_mean(pair->green.reflectance) : 0;
   if (white <= green)
     tell_of(sign, Severity::warning,
             fmt::format(
@@ -207,12 +252,12 @@ void inspect_sign_light(const SceneDescription& scene, Findings& out) {
   for (const Sign& sign : scene.signs) {
     inspect_face(sign, out);
     if (sign.lighting == SignLighting::external) continue;
-    inspect_state(sign, sign.emergency, "emergency", out);
+    inspect_state(sign, &FaceColour::emergency_cd_m2, "emergency", out);
     if (sign.lighting == SignLighting::photoluminescent) {
       inspect_glow(sign, out);
       continue;
     }
-    inspect_state(sign, sign.mains, "mains", out);
+    inspect_state(sign, &FaceColour::mains_cd_m2, "mains", out);
     inspect_internal(sign, out);
   }
 }

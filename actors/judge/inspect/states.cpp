@@ -5,6 +5,7 @@
 
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/light/signs/onset.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 
 namespace luxodus {
@@ -54,7 +55,7 @@ void tell_switched_off(const SceneDescription& scene, const Scenario& s, Finding
     if (e.emergency_flux > 0) count("luminaire \"" + e.name + "\"", e.circuit);
   const size_t luminaires = all;
   for (const Sign& sign : scene.signs)
-    if (sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0)
+    if (sign.lighting == SignLighting::internal && max_emergency_cd_m2(sign) > 0)
       count("sign \"" + sign.name + "\"", sign.circuit);
   if (luminaires == 0 && !scene.emitters.empty())
     tell_state(s, Severity::warning,
@@ -79,7 +80,7 @@ void tell_exhausted(const SceneDescription& scene, const Scenario& s, Findings& 
         luminaires++ == 0)
       luminaire = &e;
   for (const Sign& one : scene.signs)
-    if (one.lighting == SignLighting::internal && one.emergency.white_cd_m2 > 0 &&
+    if (one.lighting == SignLighting::internal && max_emergency_cd_m2(one) > 0 &&
         is_exhausted(one.duration_s, s.seconds_after_failure) && signs++ == 0)
       sign = &one;
   const auto tell = [&](const char* kind, const std::string& name, size_t number,
@@ -106,7 +107,7 @@ bool some_last_unsaid(const SceneDescription& scene) {
 void tell_fresh_glow(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (!judges_people(scene)) return;
   for (const Sign& sign : scene.signs) {
-    if (sign.lighting != SignLighting::photoluminescent || !(sign.emergency.white_cd_m2 > 0))
+    if (sign.lighting != SignLighting::photoluminescent || !(max_emergency_cd_m2(sign) > 0))
       continue;
     return tell_state(s, Severity::warning,
                       "does not say how long after the failure of the mains it is: the "

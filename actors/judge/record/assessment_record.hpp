@@ -151,12 +151,14 @@ struct NotAssessedRecord {
 struct PeopleRecord {
   double age_years = 0, spacing_m = 0;
   std::optional<bool> irritant_smoke;
-  bool place_unknown = false;  // they do not know where the signs are
+  bool place_unknown = false;           // they do not know where the signs are
+  std::vector<std::string> other_eyes;  // names
   static constexpr void fields(auto&& field, auto& m) {
     field("age", m.age_years, {.unit = "years"});
     field("spacing", m.spacing_m, {.unit = "m"});
     field("irritant_smoke", m.irritant_smoke, {.or_null = true});
     field("place_of_signs", either(m.place_unknown, "unknown", "known"));
+    field("other_eyes", m.other_eyes, {.or_left_out = true});
   }
 };
 
@@ -200,6 +202,7 @@ struct LookRecord {
   Uncertain legend_cd_m2, ground_cd_m2, surround_cd_m2;
   double transmission = 0, glare_veil_cd_m2 = 0, visible_share = 0;
   Uncertain reading_level, seeing_level;
+  double chromatic_difference = 0;  // of legend and ground at the eye, CIE 1976 u'v'; NaN: unknown
   static constexpr void fields(auto&& field, auto& m) {
     field("legend", m.legend_cd_m2, {.unit = "cd/m2"});
     field("ground", m.ground_cd_m2, {.unit = "cd/m2"});
@@ -209,6 +212,7 @@ struct LookRecord {
     field("visible_share", m.visible_share, {.unit = "1", .or_null = true});
     field("reading_level", m.reading_level, {.unit = "1"});
     field("seeing_level", m.seeing_level, {.unit = "1"});
+    field("chromatic_difference", m.chromatic_difference, {.unit = "1", .or_null = true});
   }
 };
 
@@ -269,6 +273,18 @@ struct OtherLightRecord {
   }
 };
 
+/// The verdict for other eyes than those of the stated age.
+struct OtherEyesRecord {
+  std::string eyes;  // as the scene names them
+  SightVerdict verdict = SightVerdict::not_assessed;
+  std::optional<Remark> reason;
+  Uncertain reading_level;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("eyes", m.eyes)("verdict", m.verdict)("reason", m.reason);
+    field("reading_level", m.reading_level, {.unit = "1"});
+  }
+};
+
 /// What is known of a view whose sign is neither hidden nor dark.
 struct SeenRecord {
   bool in_new_light = false;
@@ -278,11 +294,12 @@ struct SeenRecord {
   JinRecord jin;
   ViewingDistanceRecord viewing_distance;
   std::optional<OtherLightRecord> other_light;
+  std::vector<OtherEyesRecord> other_eyes;
   static constexpr void fields(auto&& field, auto& m) {
     field("light", either(m.in_new_light, "new", "aged"))(in_place, m.look);
     field("extinction", m.extinction_per_m, {.unit = "1/m", .or_null = true});
     field("margin", m.margin)("jin", m.jin)("viewing_distance", m.viewing_distance);
-    field("other_light", m.other_light);
+    field("other_light", m.other_light)("other_eyes", m.other_eyes, {.or_left_out = true});
   }
 };
 

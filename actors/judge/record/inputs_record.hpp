@@ -82,17 +82,16 @@ struct LuminaireRecord {
   bool operator==(const LuminaireRecord&) const = default;
 };
 
-/// Luminances of a face that does not depend on light from elsewhere.
-struct FaceRecord {
-  double mains_white_cd_m2 = 0, mains_green_cd_m2 = 0;
-  double emergency_white_cd_m2 = 0, emergency_green_cd_m2 = 0;
+/// A colour of a face; without luminances if the face is lit from outside.
+struct FaceColourRecord {
+  std::string name;
+  std::optional<double> mains_cd_m2, emergency_cd_m2;
   static constexpr void fields(auto&& field, auto& m) {
-    field("mains_white", m.mains_white_cd_m2, {.unit = "cd/m2"});
-    field("mains_green", m.mains_green_cd_m2, {.unit = "cd/m2"});
-    field("emergency_white", m.emergency_white_cd_m2, {.unit = "cd/m2"});
-    field("emergency_green", m.emergency_green_cd_m2, {.unit = "cd/m2"});
+    field("name", m.name);
+    field("mains", m.mains_cd_m2, {.unit = "cd/m2"});
+    field("emergency", m.emergency_cd_m2, {.unit = "cd/m2"});
   }
-  bool operator==(const FaceRecord&) const = default;
+  bool operator==(const FaceColourRecord&) const = default;
 };
 
 struct SignRecord {
@@ -102,7 +101,8 @@ struct SignRecord {
   double width_m = 0, height_m = 0, smallest_detail_m = 0;
   bool double_sided = false;
   std::string lighting, circuit, ifc_guid;
-  std::optional<FaceRecord> face;  // none if it is lit from outside
+  std::string legend, ground;  // names of colours; ground: "" if the face has one colour
+  std::vector<FaceColourRecord> colours;
   static constexpr void fields(auto&& field, auto& m) {
     field("name", m.name)("position", m.position)("facing", m.facing)("file", m.file);
     field("text", m.text);
@@ -111,7 +111,7 @@ struct SignRecord {
     field("smallest_detail", m.smallest_detail_m, {.unit = "m"});
     field("double_sided", m.double_sided)("lighting", m.lighting)("circuit", m.circuit);
     field("ifc_guid", m.ifc_guid, {.or_left_out = true});
-    field(in_place, m.face);
+    field("legend", m.legend)("ground", m.ground)("colours", m.colours);
   }
   bool operator==(const SignRecord&) const = default;
 };

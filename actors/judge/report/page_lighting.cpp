@@ -90,6 +90,16 @@ std::string sign_face(const Texts& t, const SignRecord& sign) {
   return sign.file.empty() ? t("sign.plain") : sign.file;
 }
 
+/// "white 200 / green 20", or a dash of a sign that is lit from outside.
+std::string luminances(const Texts& t, const SignRecord& sign) {
+  std::string out;
+  for (const FaceColourRecord& colour : sign.colours)
+    if (colour.emergency_cd_m2)
+      out += (out.empty() ? "" : " / ") + t.word("colour", colour.name) + " " +
+             t.number(*colour.emergency_cd_m2);
+  return out.empty() ? "–" : out;
+}
+
 std::string sign_row(const PageParts& parts, size_t number) {
   const Texts& t = parts.texts;
   const SignRecord& s = parts.a.signs[number];
@@ -97,15 +107,11 @@ std::string sign_row(const PageParts& parts, size_t number) {
   // Azimuth from +y towards +x, as on a compass, relative to the project's north.
   double bearing = std::atan2(f.x, f.y) * 180 / std::numbers::pi - parts.a.project.north_deg;
   bearing = std::fmod(bearing + 720, 360);
-  std::string luminance = "–";
-  if (s.face)
-    luminance =
-        t.number(s.face->emergency_white_cd_m2) + " / " + t.number(s.face->emergency_green_cd_m2);
   return "<tr>" + html_cell("<b>" + std::to_string(number + 1) + "</b>", "n") + cell(s.name) +
          html_cell(breaking_at_slashes(sign_face(t, s))) +
          cell(t.word("lighting", s.lighting) + (s.double_sided ? t("sign.double_sided") : "")) +
          cell(t.fixed(s.width_m, 3) + " × " + t.fixed(s.height_m, 3)) +
-         number_cell(t, 1000 * s.smallest_detail_m) + html_cell(escaped(luminance), "n") +
+         number_cell(t, 1000 * s.smallest_detail_m) + html_cell(escaped(luminances(t, s)), "n") +
          html_cell(escaped(t.place(p.x, p.y, p.z)) + "<br>" +
                    escaped(t.say("sign.height", t.fixed(parts.schedule.above_floor(p.z))))) +
          html_cell(t.fixed(bearing, 0) + "°", "n") + "</tr>\n";

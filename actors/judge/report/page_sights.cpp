@@ -99,6 +99,40 @@ std::string signs_table(const PageParts& parts, double height) {
                {5, 17, 13, 13, 13, 13, 13, 13}, rows);
 }
 
+/// "75 years", "protan (no cones for long wavelengths), 75 years".
+std::string eyes_text(const Texts& t, const std::string& name) {
+  const size_t space = name.find(' ');
+  const bool number = name.find_first_not_of("0123456789.") == std::string::npos;
+  if (number) return t.say("inputs.years", name);
+  const std::string kind = t.word("eyes", name.substr(0, space));
+  return space == std::string::npos ? kind
+                                    : kind + ", " + t.say("inputs.years", name.substr(space + 1));
+}
+
+/// For each kind of eyes, the number of views by verdict, of those that light decides.
+std::string eyes_table(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  const PeopleRecord& people = parts.a.people;
+  std::vector<std::array<size_t, sight_ranks.size()>> counts(1 + people.other_eyes.size());
+  for (const SightRecord& sight : parts.a.sights) {
+    if (!sight.seen || sight.seen->other_eyes.size() != people.other_eyes.size()) continue;
+    ++counts[0][rank_of(sight.verdict)];
+    for (size_t e = 0; e < people.other_eyes.size(); ++e)
+      ++counts[1 + e][rank_of(sight.seen->other_eyes[e].verdict)];
+  }
+  std::string rows;
+  for (size_t e = 0; e < counts.size(); ++e) {
+    rows += "<tr>" + cell(e == 0 ? t.say("inputs.years", t.number(people.age_years))
+                                 : eyes_text(t, people.other_eyes[e - 1]));
+    for (size_t rank = 0; rank < 5; ++rank) rows += html_cell(std::to_string(counts[e][rank]), "n");
+    rows += "</tr>\n";
+  }
+  return table(t,
+               {"column.eyes", "sight.legible", "sight.undecided", "sight.visible but not legible",
+                "sight.invisible", "sight.not assessed"},
+               {35, 13, 13, 13, 13, 13}, rows);
+}
+
 std::string observers_table(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
@@ -107,14 +141,15 @@ std::string observers_table(const PageParts& parts) {
     rows += "<tr>" + verdict_cell(t, "sight", name_of(sight.verdict)) +
             cell(t.subject(sight.from)) + cell(sight.sign) + number_cell(t, sight.distance_m, "m") +
             (sight.seen ? number_cell(t, sight.seen->look.reading_level.value) +
-                              number_cell(t, sight.seen->margin.read_within_m, "m")
-                        : no_number_cell() + no_number_cell()) +
+                              number_cell(t, sight.seen->margin.read_within_m, "m") +
+                              number_cell(t, sight.seen->look.chromatic_difference)
+                        : no_number_cell() + no_number_cell() + no_number_cell()) +
             "</tr>\n";
   }
   return table(t,
                {"column.verdict", "column.from", "column.sign", "column.distance",
-                "column.reading_level", "column.read_within"},
-               {24, 22, 20, 11, 12, 11}, rows);
+                "column.reading_level", "column.read_within", "column.chromatic_difference"},
+               {23, 20, 17, 10, 10, 10, 10}, rows);
 }
 
 /// Suffix of a picture's name and key of its caption: human view first, then luminance.
@@ -316,7 +351,9 @@ std::string sights_section(const PageParts& parts) {
              escaped(t.say("plan.sights", t.fixed(height))) + ".</b> " +
              escaped(t("plan.sights_note")) + "</figcaption></figure>\n";
   if (const std::string rows = observers_table(parts); !rows.empty())
-    out += subheading(t("sights.observers")) + rows;
+    out += subheading(t("sights.observers")) + rows + paragraph(t("sights.chromatic_note"), "note");
+  if (!parts.a.people.other_eyes.empty())
+    out += subheading(t("sights.eyes")) + paragraph(t("sights.eyes_lead")) + eyes_table(parts);
   return out + sweep_table(parts) + subheading(t("sights.pictures")) + pictures(parts);
 }
 

@@ -17,6 +17,13 @@ std::string places_of(const std::vector<Thing>& things, const std::vector<size_t
   return out;
 }
 
+/// The colour that has this name; one without luminances if there is none.
+FaceColourRecord colour_of(const SignRecord& sign, const std::string& name) {
+  for (const FaceColourRecord& colour : sign.colours)
+    if (colour.name == name) return colour;
+  return {};
+}
+
 }  // namespace
 
 CsvTable luminaires_csv(const AssessmentRecord& a, const Schedule& schedule) {
@@ -52,21 +59,21 @@ CsvTable signs_csv(const AssessmentRecord& a, const Schedule& schedule) {
                   "width [m]",
                   "height [m]",
                   "smallest detail [m]",
-                  "mains white [cd/m2]",
-                  "mains green [cd/m2]",
-                  "emergency white [cd/m2]",
-                  "emergency green [cd/m2]"});
+                  "legend colour",
+                  "ground colour",
+                  "mains legend [cd/m2]",
+                  "mains ground [cd/m2]",
+                  "emergency legend [cd/m2]",
+                  "emergency ground [cd/m2]"});
   for (size_t i = 0; i < a.signs.size(); ++i) {
     const SignRecord& one = a.signs[i];
     const glm::dvec3 &p = one.position, &f = one.facing;
     table.cells(static_cast<int64_t>(i + 1), one.name, one.file, one.text, one.lighting,
                 one.double_sided, one.circuit, p.x, p.y, p.z, schedule.above_floor(p.z), f.x, f.y,
-                f.z, one.width_m, one.height_m, one.smallest_detail_m);
-    if (one.face)
-      table.row(one.face->mains_white_cd_m2, one.face->mains_green_cd_m2,
-                one.face->emergency_white_cd_m2, one.face->emergency_green_cd_m2);
-    else
-      table.empty_cell().empty_cell().empty_cell().empty_cell().end_row();
+                f.z, one.width_m, one.height_m, one.smallest_detail_m, one.legend, one.ground);
+    const FaceColourRecord legend = colour_of(one, one.legend), ground = colour_of(one, one.ground);
+    table.row(legend.mains_cd_m2, ground.mains_cd_m2, legend.emergency_cd_m2,
+              ground.emergency_cd_m2);
   }
   return table;
 }

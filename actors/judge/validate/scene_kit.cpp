@@ -161,9 +161,9 @@ void add_tiny_sign(SceneDescription& scene, const glm::dvec3& at, double luminan
   sign.frame.origin = at;
   sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
   sign.width_m = sign.height_m = sign.smallest_detail_m = tiny_sign_m;
-  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
-  sign.mains = {luminance_cd_m2, 0};
-  sign.white_reflectance = sign.green_reflectance = Spectrum::constant(0);
+  sign.face = {1, 1, {0}, {}};
+  sign.colours = white_and_green({luminance_cd_m2, 0});
+  for (FaceColour& colour : sign.colours) colour.reflectance = Spectrum::constant(0);
   scene.signs.push_back(sign);
 }
 

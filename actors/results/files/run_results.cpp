@@ -248,32 +248,36 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
       return readout.value(scene.blocks.views, t.first_bin + part,
                            static_cast<uint32_t>(EyeQuantity::at_eye));
     };
-    const Estimate white = at_eye(0), green = at_eye(1), surround = at_eye(2);
-    const double w = colour_share(sign.face, SignColour::white);
-    const double g = colour_share(sign.face, SignColour::green);
+    const std::array<Estimate, 3> part{at_eye(0), at_eye(1), at_eye(2)};
+    const std::array<double, 2> share = part_shares(sign.face);
+    const double whole = std::max(share[0] + share[1], 1e-12);
     const Estimate mean{
-        (w * white.value + g * green.value) / std::max(w + g, 1e-12),
-        std::hypot(w * white.standard_error, g * green.standard_error) / std::max(w + g, 1e-12)};
-    const bool white_legend = sign.face.legend == SignColour::white;
+        (share[0] * part[0].value + share[1] * part[1].value) / whole,
+        std::hypot(share[0] * part[0].standard_error, share[1] * part[1].standard_error) / whole};
+    const size_t legend = sign.face.legend_part();
     const SignView view = view_of_sign(sign, observer.eye);
     const double gaze = glm::degrees(std::acos(std::clamp(
         glm::dot(glm::normalize(face.frame.origin - observer.eye), glm::normalize(observer.gaze)),
         -1.0, 1.0)));
-    out.push_back({{"sign", sign.name},
-                   {"back_face", face.back},
-                   {"observer", observer.name},
-                   {"distance", exact_json(view.distance_m, "m")},
-                   {"angle_from_normal", exact_json(view.angle_deg, "deg")},
-                   {"angle_from_gaze", exact_json(gaze, "deg")},
-                   {"angular_height", exact_json(view.height_arcmin, "arcmin")},
-                   {"angular_width", exact_json(view.width_arcmin, "arcmin")},
-                   {"angular_detail", exact_json(view.detail_arcmin, "arcmin")},
-                   {"white", sign_part_json(scene, readout, t.first_bin)},
-                   {"green", sign_part_json(scene, readout, t.first_bin + 1)},
-                   {"surround", surround_json(scene, readout, t.first_bin + 2)},
-                   {"contrast_legend_background",
-                    white_legend ? contrast_json(white, green) : contrast_json(green, white)},
-                   {"contrast_sign_surround", contrast_json(mean, surround)}});
+    Json json = {{"sign", sign.name},
+                 {"back_face", face.back},
+                 {"observer", observer.name},
+                 {"distance", exact_json(view.distance_m, "m")},
+                 {"angle_from_normal", exact_json(view.angle_deg, "deg")},
+                 {"angle_from_gaze", exact_json(gaze, "deg")},
+                 {"angular_height", exact_json(view.height_arcmin, "arcmin")},
+                 {"angular_width", exact_json(view.width_arcmin, "arcmin")},
+                 {"angular_detail", exact_json(view.detail_arcmin, "arcmin")}};
+    for (uint32_t p = 0; p < 2; ++p) {
+      if (face.parts[p] == other_colour) continue;
+      const std::string& name = sign.colours[face.parts[p]].name;
+      json[p == legend ? "legend" : "ground"] = name;
+      json[name] = sign_part_json(scene, readout, t.first_bin + p);
+    }
+    json["surround"] = surround_json(scene, readout, t.first_bin + 2);
+    json["contrast_legend_background"] = contrast_json(part[legend], part[1 - legend]);
+    json["contrast_sign_surround"] = contrast_json(mean, part[2]);
+    out.push_back(std::move(json));
   }
   return out;
 }

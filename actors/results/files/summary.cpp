@@ -68,6 +68,13 @@ std::string fluxes(const Json& result) {
   return text;
 }
 
+/// "white 200 ± 1 %  "; nothing for a part that the face lacks.
+std::string part_text(const Json& sign, const char* part) {
+  if (!sign.contains(part)) return "";
+  const std::string name = sign[part];
+  return fmt::format("{} {}  ", name, measured_text(sign[name]["luminance_at_eye"]));
+}
+
 /// The signs that each observer sees, in the scene's order.
 std::string signs(const Json& result) {
   std::vector<std::string> observers;
@@ -79,12 +86,11 @@ std::string signs(const Json& result) {
     text += fmt::format("  signs from {}: luminance at the eye\n", observer);
     for (const Json& s : result["signs"]) {
       if (s["observer"] != observer) continue;
-      text +=
-          fmt::format("    {:<26} {:5.1f} m  white {}  green {}  surround {:.3g}\n",
-                      s["sign"].get<std::string>() + (s["back_face"].get<bool>() ? ", back" : ""),
-                      number(s["distance"]["value"]), measured_text(s["white"]["luminance_at_eye"]),
-                      measured_text(s["green"]["luminance_at_eye"]),
-                      number(s["surround"]["luminance_at_eye"]["value"]));
+      text += fmt::format(
+          "    {:<26} {:5.1f} m  {}surround {:.3g}\n",
+          s["sign"].get<std::string>() + (s["back_face"].get<bool>() ? ", back" : ""),
+          number(s["distance"]["value"]), part_text(s, "legend") + part_text(s, "ground"),
+          number(s["surround"]["luminance_at_eye"]["value"]));
     }
   }
   return text;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 #include "actors/results/pictures/pixel_sums.hpp"
 #include "actors/results/pictures/pixel_tracer.hpp"
@@ -36,11 +36,26 @@ void keep_each_once(std::vector<size_t>& pixels) {
   pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
 }
 
-/// The pixels that show a face. A pixel of both colours is of neither.
+/// Leaves each pixel to the only list that has it. A pixel of several colours is of none.
+void drop_shared(std::vector<std::vector<size_t>>& lists) {
+  std::vector<size_t> all;
+  for (std::vector<size_t>& pixels : lists) {
+    keep_each_once(pixels);
+    all.insert(all.end(), pixels.begin(), pixels.end());
+  }
+  std::sort(all.begin(), all.end());
+  for (std::vector<size_t>& pixels : lists)
+    std::erase_if(pixels, [&](size_t pixel) {
+      const auto [first, last] = std::equal_range(all.begin(), all.end(), pixel);
+      return last - first > 1;
+    });
+}
+
+/// The pixels that show a face.
 SignInView face_in_view(const CompiledSign& compiled, const Sign& sign, const Pinhole& pinhole,
                         const glm::dvec3& eye, const NoisyPicture& features) {
-  SignInView out{compiled.sign, compiled.back, {}, {}};
-  std::vector<size_t> other;
+  const size_t count = sign.colours.size();
+  std::vector<std::vector<size_t>> pixels(count + 1);  // the last ones: of none of its colours
   const SignFace& face = sign.face;
   const int across = std::min(face.width, max_samples), down = std::min(face.height, max_samples);
   const Frame& frame = compiled.frame;
@@ -55,22 +70,12 @@ SignInView face_in_view(const CompiledSign& compiled, const Sign& sign, const Pi
       const size_t pixel = static_cast<size_t>(at->y) * static_cast<size_t>(features.width) +
                            static_cast<size_t>(at->x);
       if (!shows_face(features, pixel, frame.axes[2], glm::distance(place, eye))) continue;
-      const SignColour colour = face.colour[texel_index(face, u, v)];
-      (colour == SignColour::white   ? out.white
-       : colour == SignColour::green ? out.green
-                                     : other)
-          .push_back(pixel);
+      const ColourIndex colour = face.colour[texel_index(face, u, v)];
+      pixels[std::min<size_t>(colour, count)].push_back(pixel);
     }
-  for (auto* pixels : {&out.white, &out.green, &other}) keep_each_once(*pixels);
-  const auto without = [](const std::vector<size_t>& all, const std::vector<size_t>& less) {
-    std::vector<size_t> rest;
-    std::set_difference(all.begin(), all.end(), less.begin(), less.end(), std::back_inserter(rest));
-    return rest;
-  };
-  const std::vector<size_t> white = without(without(out.white, out.green), other);
-  out.green = without(without(out.green, out.white), other);
-  out.white = white;
-  return out;
+  drop_shared(pixels);
+  pixels.pop_back();
+  return {compiled.sign, compiled.back, std::move(pixels)};
 }
 
 }  // namespace
@@ -86,7 +91,9 @@ std::vector<SignInView> signs_in_view(const CompiledScene& scene, const Camera& 
     if (glm::dot(camera.eye - face.frame.origin, face.frame.axes[2]) <= 0) continue;
     SignInView shown =
         face_in_view(face, scene.description->signs[face.sign], pinhole, camera.eye, features);
-    if (!shown.white.empty() || !shown.green.empty()) out.push_back(std::move(shown));
+    if (std::any_of(shown.colours.begin(), shown.colours.end(),
+                    [](const std::vector<size_t>& pixels) { return !pixels.empty(); }))
+      out.push_back(std::move(shown));
   }
   return out;
 }
@@ -101,8 +108,8 @@ double mean_luminance(const XyzPicture& picture, const std::vector<size_t>& pixe
 double brightest_face(const XyzPicture& picture, const std::vector<SignInView>& signs) {
   double most = 0;
   for (const SignInView& sign : signs)
-    most =
-        std::max({most, mean_luminance(picture, sign.white), mean_luminance(picture, sign.green)});
+    for (const std::vector<size_t>& pixels : sign.colours)
+      most = std::max(most, mean_luminance(picture, pixels));
   return most;
 }
 

@@ -16,19 +16,20 @@ namespace luxodus {
 struct SignInView {
   size_t sign = 0;  // index in the description
   bool back = false;
-  /// Pixels whose centre shows this colour, as far as the face is not hidden. Each once.
-  std::vector<size_t> white, green;
+  /// For each colour of the sign, the pixels whose centre shows it, as far as the face is not
+  /// hidden. Each once.
+  std::vector<std::vector<size_t>> colours;
 };
 
-/// Faces with at least one pixel of white or green, in the order of the scene's. `features`: those
-/// of the picture, which may have another size than the camera says.
+/// Faces with at least one pixel of one of their colours, in the order of the scene's. `features`:
+/// those of the picture, which may have another size than the camera says.
 std::vector<SignInView> signs_in_view(const CompiledScene& scene, const Camera& camera,
                                       const NoisyPicture& features);
 
 /// Mean luminance of these pixels [cd/m2]; 0 without any.
 double mean_luminance(const XyzPicture& picture, const std::vector<size_t>& pixels);
 
-/// Luminance of the brightest face, over its white or its green [cd/m2]; 0 without any.
+/// Luminance of the brightest colour of all faces [cd/m2]; 0 without any.
 double brightest_face(const XyzPicture& picture, const std::vector<SignInView>& signs);
 
 }  // namespace luxodus

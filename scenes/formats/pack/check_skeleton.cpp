@@ -2,6 +2,7 @@
 #include "scenes/formats/pack/check_skeleton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scenes/formats/pack/archive.hpp"
@@ -147,39 +148,43 @@ void check_face(const Sign& s) {
   need(face.colour.size() == texels &&
            (face.relative_luminance.empty() || face.relative_luminance.size() == texels),
        "a sign's face has not the size that it says");
+  const auto known = [&](ColourIndex c) { return c == other_colour || c < s.colours.size(); };
+  need(std::all_of(face.colour.begin(), face.colour.end(), known) && known(face.legend) &&
+           known(face.ground) && face.legend != face.ground && face.legend != other_colour,
+       "a sign's face has a colour that its sign has not");
   // The sums by which texels of a colour are chosen.
-  double sum[3] = {0, 0, 0};
-  bool there[3] = {false, false, false};
+  std::array<double, limits::max_face_colours> sum{};
+  std::array<bool, limits::max_face_colours> there{};
   for (size_t i = 0; i < texels; ++i) {
     const double v = face.relative_luminance.empty() ? 1 : double{face.relative_luminance[i]};
     need(within(v, 0, 1e6), "a sign's texel has a luminance that cannot be");
-    sum[static_cast<size_t>(face.colour[i])] += v;
-    there[static_cast<size_t>(face.colour[i])] = true;
+    if (face.colour[i] == other_colour) continue;
+    sum[face.colour[i]] += v;
+    there[face.colour[i]] = true;
   }
-  for (const SignColour colour : {SignColour::white, SignColour::green}) {
-    const auto i = static_cast<size_t>(colour);
+  for (size_t i = 0; i < sum.size(); ++i)
     need(!there[i] || sum[i] > 0, "a colour of a sign is wholly dark");
-  }
 }
 
 void check(const Sign& s) {
   need_frame(s.frame);
+  need(!s.colours.empty() && s.colours.size() <= limits::max_face_colours,
+       "a sign has no colours or too many");
   check_face(s);
   need(within(s.width_m, 1e-4, 1e4) && within(s.height_m, 1e-4, 1e4) &&
            within(s.thickness_m, 0, 1e4) && within(s.smallest_detail_m, 0, 1e4),
        "a sign has no size");
-  for (const SignState* state : {&s.mains, &s.emergency})
-    need(within(state->white_cd_m2, 0, brightest) && within(state->green_cd_m2, 0, brightest),
+  for (const FaceColour& colour : s.colours) {
+    need(within(colour.mains_cd_m2, 0, brightest) && within(colour.emergency_cd_m2, 0, brightest),
          "a sign's luminance cannot be");
+    need_shape(colour.shape, true);
+    need_spectrum(colour.reflectance, 1, "a sign reflects more than 1");
+  }
   need(within(s.duration_s.value_or(1), 0, 1e12), "a sign's duration cannot be");
   need(within(s.angular_exponent, 0, 1e3), "a sign's luminance falls off in no way that can be");
   for (size_t i = 0; i < s.decay.size(); ++i)
     need(within(s.decay[i].y, 0, any_factor) && (i == 0 || s.decay[i].x > s.decay[i - 1].x),
          "a sign's decay does not go on in time");
-  need_shape(s.white_shape, true);
-  need_shape(s.green_shape, true);
-  need_spectrum(s.white_reflectance, 1, "a sign reflects more than 1");
-  need_spectrum(s.green_reflectance, 1, "a sign reflects more than 1");
 }
 
 void check(const SmokeOptics& o) {

@@ -75,12 +75,13 @@ void serialize(A& a, SignFace& x) {
     if (texels > a.left()) throw DamagedArchive("it holds a list longer than itself");
     x.colour.resize(texels);
   }
-  for (SignColour& colour : x.colour) a(choice(colour, SignColour::other));
-  a(x.relative_luminance, choice(x.legend, SignColour::other));
+  for (ColourIndex& colour : x.colour) a(colour);
+  a(x.relative_luminance, x.legend, x.ground);
 }
 template <class A>
-void serialize(A& a, SignState& x) {
-  a(x.white_cd_m2, x.green_cd_m2);
+void serialize(A& a, FaceColour& x) {
+  a(x.name, x.drawn[0], x.drawn[1], x.drawn[2], x.mains_cd_m2, x.emergency_cd_m2, x.shape,
+    x.reflectance);
 }
 template <class A>
 void serialize(A& a, SignLetters& x) {
@@ -89,10 +90,8 @@ void serialize(A& a, SignLetters& x) {
 template <class A>
 void serialize(A& a, Sign& x) {
   a(x.name, x.place, x.circuit, x.group, x.frame, x.width_m, x.height_m, x.smallest_detail_m,
-    x.letters, x.double_sided, x.thickness_m, x.face,
-    choice(x.lighting, SignLighting::photoluminescent), x.mains, x.emergency, x.duration_s,
-    x.angular_exponent, x.decay, x.white_shape, x.green_shape, x.white_reflectance,
-    x.green_reflectance);
+    x.letters, x.double_sided, x.thickness_m, x.colours, x.face,
+    choice(x.lighting, SignLighting::photoluminescent), x.duration_s, x.angular_exponent, x.decay);
 }
 template <class A>
 void serialize(A& a, PlaneMeasure& x) {

@@ -1,8 +1,11 @@
 // Reads routes, areas, points of emphasis, and assumptions about people.
 #include <algorithm>
+#include <charconv>
 #include <span>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/emergency/rule_sets.hpp"
+#include "scenes/emergency/sight.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
 #include "scenes/light/geometry/polygon.hpp"
 
@@ -41,6 +44,36 @@ void check_names(KeyReader& keys, const char* key, const std::vector<std::string
       keys.problem(key, "there is no \"" + name + "\" in '" + key + "'; there are: " + all);
 }
 
+/// "75", "protan", "protan 75".
+std::optional<OtherEyes> other_eyes_named(const std::string& name) {
+  constexpr std::string_view protan = "protan";
+  OtherEyes eyes{name, {}, name.starts_with(protan)};
+  std::string_view age = name;
+  if (eyes.protan) age.remove_prefix(protan.size());
+  if (eyes.protan && age.empty()) return eyes;
+  if (eyes.protan && age.starts_with(' ')) age.remove_prefix(1);
+  double years = 0;
+  const auto [end, error] = std::from_chars(age.data(), age.data() + age.size(), years);
+  if (error != std::errc() || end != age.data() + age.size() || !(years >= limits::min_age) ||
+      !(years <= limits::max_age))
+    return std::nullopt;
+  eyes.age_years = years;
+  return eyes;
+}
+
+std::vector<OtherEyes> read_other_eyes(KeyReader& keys) {
+  std::vector<OtherEyes> out;
+  for (const std::string& name : keys.texts("other_eyes")) {
+    if (auto eyes = other_eyes_named(name))
+      out.push_back(*std::move(eyes));
+    else
+      keys.problem("other_eyes", "'other_eyes' has \"" + excerpt(name) +
+                                     "\"; it takes ages from 23 to 75, such as \"75\", and "
+                                     "\"protan\" with or without one");
+  }
+  return out;
+}
+
 }  // namespace
 
 void read_assessment(const toml::Table& table, SceneReading& reading) {
@@ -55,6 +88,7 @@ void read_assessment(const toml::Table& table, SceneReading& reading) {
     if (keys.clean() && s.eye_heights_m.empty())
       keys.problem("eye_heights_m", "'eye_heights_m' names no height");
   }
+  if (says("other_eyes")) s.other_eyes = read_other_eyes(keys);
   if (says("spacing_m")) s.spacing_m = keys.number("spacing_m");
   if (says("smoke_expected")) s.smoke_expected = keys.flag("smoke_expected");
   if (says("irritant_smoke")) s.irritant_smoke = keys.flag("irritant_smoke");

@@ -6,6 +6,7 @@
 #include "scenes/formats/scene_file/read_signs.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
 #include "scenes/light/geometry/transform.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/world/design.hpp"
 
 namespace luxodus {
@@ -40,10 +41,7 @@ void move(KeyReader& keys, Frame& frame, Aim aim) {
 }
 
 void brighten(Sign& sign, double factor) {
-  for (SignState* state : {&sign.mains, &sign.emergency}) {
-    state->white_cd_m2 *= factor;
-    state->green_cd_m2 *= factor;
-  }
+  scale_luminances(sign, factor);
 }
 void brighten(Emitter& emitter, double factor) {
   emitter.mains_flux *= factor;

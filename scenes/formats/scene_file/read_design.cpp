@@ -153,13 +153,15 @@ DesignSignType generic_sign(const SourcePlace& place) {
 }
 
 bool alike(const Sign& a, const Sign& b) {
-  const auto same = [](const SignState& p, const SignState& q) {
-    return p.white_cd_m2 == q.white_cd_m2 && p.green_cd_m2 == q.green_cd_m2;
+  const auto same = [](const FaceColour& p, const FaceColour& q) {
+    return p.name == q.name && p.mains_cd_m2 == q.mains_cd_m2 &&
+           p.emergency_cd_m2 == q.emergency_cd_m2;
   };
   return a.width_m == b.width_m && a.height_m == b.height_m && a.file == b.file &&
          a.text == b.text && a.lighting == b.lighting && a.double_sided == b.double_sided &&
-         same(a.mains, b.mains) && same(a.emergency, b.emergency) && a.decay == b.decay &&
-         a.duration_s == b.duration_s && a.angular_exponent == b.angular_exponent;
+         std::equal(a.colours.begin(), a.colours.end(), b.colours.begin(), b.colours.end(), same) &&
+         a.face.legend == b.face.legend && a.decay == b.decay && a.duration_s == b.duration_s &&
+         a.angular_exponent == b.angular_exponent;
 }
 
 /// The arrow shared by all its routes; none where it has none or several.

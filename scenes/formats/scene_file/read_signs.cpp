@@ -6,25 +6,18 @@
 
 #include "runtime/core/output_text.hpp"
 #include "scenes/formats/images/image_file.hpp"
+#include "scenes/formats/scene_file/read_colours.hpp"
 #include "scenes/formats/scene_file/read_files.hpp"
 #include "scenes/formats/scene_file/read_placement.hpp"
 #include "scenes/formats/scene_file/read_spectrum.hpp"
 #include "scenes/formats/scene_file/read_types.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/signs/sign_face.hpp"
 
 namespace luxodus {
 
 namespace {
-
-/// Green of signs in public drawings, sRGB #237F52 (ISO 3864-4 region of safety green), as a film
-/// before the lamp that gives white: relative to that white it has this colour, whatever the lamp.
-Spectrum safety_green_shape(const Spectrum& white) {
-  const Spectrum light = white * reflectance_from_linear_srgb(linear_from_srgb(0x23 / 255.0),
-                                                              linear_from_srgb(0x7F / 255.0),
-                                                              linear_from_srgb(0x52 / 255.0));
-  return light * (1 / light.integral());
-}
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string e = path.extension().string();
@@ -34,8 +27,10 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign, int texels) {
   const std::string extension = lower_extension(path);
-  if (extension == ".svg") return face_from_svg(path, sign.width_m, sign.height_m, texels);
-  if (extension == ".png") return face_from_png(path, sign.width_m, sign.height_m, texels);
+  if (extension == ".svg")
+    return face_from_svg(path, sign.width_m, sign.height_m, texels, sign.colours);
+  if (extension == ".png")
+    return face_from_png(path, sign.width_m, sign.height_m, texels, sign.colours);
   return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
@@ -78,18 +73,45 @@ void bound_lengths(KeyReader& keys, const Sign& sign) {
   bound_length(keys, "spacing", keys.number("spacing"), sign.width_m, "the width", sign);
 }
 
-void read_face(KeyReader& keys, Sign& sign) {
-  const std::string given = keys.exactly_one({"file", "text", "plain"}, true);
-  const int texels = static_cast<int>(keys.integer("texels"));
-  const double letter = keys.number("letter_height"), stroke = keys.number("stroke");
-  const double spacing = keys.number("spacing");
-  const std::string legend_word = keys.choice("legend");
-  const SignColour legend = legend_word == "green" ? SignColour::green : SignColour::white;
+/// The colours that the keys of a face name.
+struct NamedColours {
+  std::optional<ColourIndex> legend, ground, plain;
+};
+
+NamedColours read_named_colours(KeyReader& keys, const Sign& sign) {
+  NamedColours named{colour_of_key(keys, "legend", sign), colour_of_key(keys, "ground", sign),
+                     colour_of_key(keys, "plain", sign)};
+  if (named.legend && named.legend == named.ground)
+    keys.problem("ground", "legend and ground have the same colour");
+  // One of two colours leaves the other one. Signs of white and green have a white legend.
+  if (sign.colours.size() != 2) return named;
+  if (!named.legend && !named.ground && !names_its_colours(keys)) named.legend = ColourIndex{0};
+  const auto rest = [](ColourIndex one) { return static_cast<ColourIndex>(1 - one); };
+  if (named.legend && !named.ground) named.ground = rest(*named.legend);
+  if (named.ground && !named.legend) named.legend = rest(*named.ground);
+  return named;
+}
+
+/// What a face is made of; read before anything is drawn.
+struct FaceKeys {
+  std::string given;  // "file", "text" or "plain"
+  int texels = 0;
+  double letter_m = 0, stroke_m = 0, spacing_m = 0;
+  NamedColours colours;
+  std::optional<std::filesystem::path> path;
+};
+
+FaceKeys read_face_keys(KeyReader& keys, Sign& sign) {
+  FaceKeys face;
+  face.given = keys.exactly_one({"file", "text", "plain"}, true);
+  face.texels = static_cast<int>(keys.integer("texels"));
+  face.letter_m = keys.number("letter_height");
+  face.stroke_m = keys.number("stroke");
+  face.spacing_m = keys.number("spacing");
+  face.colours = read_named_colours(keys, sign);
   const auto detail = keys.maybe_number("smallest_detail");
-  const auto path = given == "file" ? keys.file("file") : std::nullopt;
-  const std::string plain = given == "plain" ? keys.choice("plain") : "";
-  const auto map = keys.file("luminance_map");
-  if (given != "text") {
+  if (face.given == "file") face.path = keys.file("file");
+  if (face.given != "text") {
     for (const char* key : {"letter_height", "stroke", "spacing"}) {
       if (keys.has(key)) {
         keys.problem(key, "'" + std::string(key) + "' belongs to a sign with 'text'");
@@ -97,79 +119,84 @@ void read_face(KeyReader& keys, Sign& sign) {
       }
     }
   }
-  if (!given.empty() && given != "text" && !keys.has("smallest_detail")) {
+  if (!face.given.empty() && face.given != "text" && !keys.has("smallest_detail")) {
     keys.problem(
         "'smallest_detail' [m] is needed where the face is no 'text': what must be seen to "
         "understand the sign?");
   }
-  sign.smallest_detail_m = detail.value_or(stroke);
-  if (given == "text") {
-    sign.letters = SignLetters{letter, stroke};
+  if (face.given == "text" && keys.clean() && (!face.colours.legend || !face.colours.ground))
+    keys.problem("text", "a text needs 'legend', the colour of its letters" +
+                             std::string(sign.colours.size() > 2 ? ", and 'ground'" : "") +
+                             ": of the colours " + colour_names(sign.colours));
+  sign.smallest_detail_m = detail.value_or(face.stroke_m);
+  if (face.given == "text") {
+    sign.letters = SignLetters{face.letter_m, face.stroke_m};
     sign.text = keys.text("text");
   }
-  if (path) sign.file = *keys.value("file")->as_text();
+  if (face.path) sign.file = *keys.value("file")->as_text();
   bound_lengths(keys, sign);
+  return face;
+}
+
+/// Requires: nothing is wrong with the keys.
+Result<SignFace> make_face(const FaceKeys& keys, const Sign& sign, bool names_colours) {
+  const NamedColours& named = keys.colours;
+  if (keys.given == "text")
+    return face_from_text(sign.text, sign.width_m, sign.height_m, keys.letter_m, keys.stroke_m,
+                          keys.spacing_m, *named.legend, *named.ground, keys.texels);
+  if (keys.given == "plain") {
+    auto face = uniform_face(*named.plain, sign.width_m, sign.height_m, keys.texels);
+    if (face && names_colours) {
+      face->legend = *named.plain;
+      face->ground = other_colour;
+    }
+    return face;
+  }
+  auto face = drawn_face(*keys.path, sign, keys.texels);
+  if (!face) return face;
+  if (auto ok = choose_legend(face.value(), sign.colours, named.legend, named.ground); !ok)
+    return ok.problem();
+  return face;
+}
+
+void read_face(KeyReader& keys, Sign& sign) {
+  const FaceKeys face_keys = read_face_keys(keys, sign);
+  const auto map = keys.file("luminance_map");
   if (!keys.clean()) return;
+  const auto& path = face_keys.path;
   if (path && !take_hash(*path, keys.place("file"), keys.reading())) return;
-  auto face = given == "file" ? drawn_face(*path, sign, texels)
-              : given == "text"
-                  ? face_from_text(sign.text, sign.width_m, sign.height_m, letter, stroke, spacing,
-                                   legend, texels)
-                  : uniform_face(plain == "green" ? SignColour::green : SignColour::white,
-                                 sign.width_m, sign.height_m, texels);
+  auto face = make_face(face_keys, sign, names_its_colours(keys));
   if (!face) {
-    SourcePlace at = keys.place(given);
+    SourcePlace at = keys.place(face_keys.given);
     return take_problem(face.problem(), at, keys.reading());
   }
   sign.face = std::move(face).value();
   if (path) tell_gaps(*path, keys);
-  if (given == "file" && keys.has("legend")) sign.face.legend = legend;
   if (!map) return;
   const auto image = read_image(*map, keys.place("luminance_map"), keys.reading());
   if (!image) return;
-  auto with_map = with_luminance_map(std::move(sign.face), *image);
+  auto with_map = with_luminance_map(std::move(sign.face), sign.colours, *image);
   if (!with_map)
     return take_problem(with_map.problem(), keys.place("luminance_map"), keys.reading());
   sign.face = std::move(with_map).value();
 }
 
-void read_luminances(KeyReader& keys, Sign& sign) {
+void read_lighting(KeyReader& keys, Sign& sign) {
   const std::string lighting = keys.choice("lighting");
-  const auto mains_white = keys.maybe_number("mains_white");
-  const auto mains_green = keys.maybe_number("mains_green");
-  const auto emergency_white = keys.maybe_number("emergency_white");
-  const auto emergency_green = keys.maybe_number("emergency_green");
-  sign.mains = {mains_white.value_or(0), mains_green.value_or(0)};
-  sign.emergency = {emergency_white.value_or(0), emergency_green.value_or(0)};
+  sign.lighting = lighting == "external"           ? SignLighting::external
+                  : lighting == "photoluminescent" ? SignLighting::photoluminescent
+                                                   : SignLighting::internal;
   sign.decay = keys.pairs("decay");
   sign.duration_s = duration_s(keys);
   if (keys.has("duration_h") && lighting != "internal")
     keys.problem("duration_h", "'duration_h' belongs to a sign with lighting = \"internal\"");
-  const auto needed = [&](const char* key) {
-    if (!keys.has(key)) {
-      keys.problem("the key '" + std::string(key) + "' is missing: a sign with lighting = \"" +
-                   lighting + "\" shines of itself");
-    }
-  };
-  if (lighting == "external") {
-    sign.lighting = SignLighting::external;
-    for (const char* key : {"mains_white", "mains_green", "emergency_white", "emergency_green"}) {
-      if (keys.has(key)) {
-        keys.problem(key, "'" + std::string(key) +
-                              "' is given, but an externally lit sign shows only "
-                              "what falls on it");
-        break;
-      }
-    }
-  } else {
-    if (lighting == "internal") needed("mains_white"), needed("mains_green");
-    needed("emergency_white"), needed("emergency_green");
-  }
-  if (lighting != "photoluminescent") {
+}
+
+void check_decay(KeyReader& keys, const Sign& sign) {
+  if (sign.lighting != SignLighting::photoluminescent) {
     if (keys.has("decay")) keys.problem("decay", "'decay' belongs to a photoluminescent sign");
     return;
   }
-  sign.lighting = SignLighting::photoluminescent;
   if (!keys.has("decay")) {
     keys.problem(
         "the key 'decay' is missing: rows [seconds after failure, share of the luminance]");
@@ -210,12 +237,9 @@ void read_sign_itself(KeyReader& keys, Sign& sign) {
     keys.reading().note("circuit", sign.circuit, keys.place("circuit"));
   }
   sign.group = keys.text("group");
-  sign.white_shape = emission_shape(keys, "white_spectrum");
-  sign.green_shape = keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum")
-                                                : safety_green_shape(sign.white_shape);
-  sign.white_reflectance = property(keys, "white_reflectance");
-  sign.green_reflectance = property(keys, "green_reflectance");
-  read_luminances(keys, sign);
+  read_lighting(keys, sign);
+  read_colours(keys, sign);
+  check_decay(keys, sign);
   read_face(keys, sign);
 }
 
@@ -230,14 +254,14 @@ void make_generic_sign(Sign& sign) {
   sign.text = "EXIT";
   sign.letters = SignLetters{letter_m, stroke_m};
   sign.smallest_detail_m = stroke_m;
-  sign.mains = {500, 50};
-  sign.emergency = {200, 20};
-  sign.white_shape = emission_shape_from_linear_srgb(1, 1, 1);
-  sign.green_shape = safety_green_shape(sign.white_shape);
+  sign.colours = white_and_green({500, 50}, {200, 20});
+  FaceColour &white = sign.colours[0], &green = sign.colours[1];
+  white.shape = emission_shape_from_linear_srgb(1, 1, 1);
+  green.shape = film_before(white.shape, green.drawn);
   // The text fits by construction: letters, stroke and face are those above.
-  sign.face = face_from_text(sign.text, width_m, height_m, letter_m, stroke_m, spacing_m,
-                             SignColour::white, texels)
-                  .value();
+  sign.face =
+      face_from_text(sign.text, width_m, height_m, letter_m, stroke_m, spacing_m, 0, 1, texels)
+          .value();
 }
 
 void read_sign(const toml::Table& stated, SceneReading& reading) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "runtime/core/printable.hpp"
 #include "scenes/formats/images/image_file.hpp"
@@ -15,6 +16,11 @@ namespace {
 constexpr double absolute_cold_k = 500;  // below, the visible share underflows
 constexpr double absolute_hot_k = 100'000;
 constexpr double led_cold_k = 2700, led_hot_k = 6500;  // the range of white_led_shape
+constexpr std::array<std::pair<std::string_view, LedColour>, 4> coloured_leds{
+    {{"led red", LedColour::red},
+     {"led yellow", LedColour::yellow},
+     {"led green", LedColour::green},
+     {"led blue", LedColour::blue}}};
 /// Colour temperatures of lamps other than flames; a value beyond them has a wrong digit.
 constexpr double reddest_lamp_k = 1200, bluest_lamp_k = 20000;
 
@@ -92,13 +98,17 @@ std::optional<Spectrum> named_shape(KeyReader& keys, std::string_view key, std::
   if (text == "A") return illuminant_a_shape();
   if (text == "D65") return illuminant_d65_shape();
   if (text == "E") return equal_energy_shape();
+  if (text == "photoluminescent") return afterglow_shape();
+  for (const auto& [name, colour] : coloured_leds)
+    if (text == name) return coloured_led_shape(colour);
   const bool led = text.substr(0, 4) == "led ";
   const auto kelvin = kelvin_of(led ? text.substr(4) : text);
   if (!kelvin) {
-    keys.problem(key,
-                 in_quotes(key) + " is \"" + excerpt(text) +
-                     "\" but must be \"A\", \"D65\", \"E\", \"2700 K\", \"led 4000 K\", a colour "
-                     "table, or rows [nm, value]");
+    keys.problem(
+        key, in_quotes(key) + " is \"" + excerpt(text) +
+                 "\" but must be \"A\", \"D65\", \"E\", \"2700 K\", \"led 4000 K\", \"led red\" "
+                 "(yellow, green, blue), \"photoluminescent\", a colour table, or rows "
+                 "[nm, value]");
     return std::nullopt;
   }
   const double low = led ? led_cold_k : absolute_cold_k, high = led ? led_hot_k : absolute_hot_k;

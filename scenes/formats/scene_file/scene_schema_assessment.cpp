@@ -9,6 +9,9 @@ std::vector<TableSpec> assessment_schema() {
        "`[assessment]`: how people and smoke are taken to be",
        {
            {"age_years", "number", "years", "65", "[23, 75]", "of the eyes that look for signs"},
+           {"other_eyes", "texts", "", "", "",
+            "eyes that signs are judged for beside those: an age such as \"75\", \"protan\" (no "
+            "cones for long wavelengths: red is darker), \"protan 75\""},
            {"eye_heights_m", "numbers", "m", "[1.65, 1.2, 0.6]", "[0.1, 2.5]",
             "above the floor: walking, stooping, crawling"},
            {"spacing_m", "number", "m", "2", "[0.1, 100]", "between observers along a route"},

@@ -174,10 +174,17 @@ TableSpec sign_keys() {
           {"thickness", "number", "m", "0.03", "[0, 1]", "between the two faces"},
           {"file", "path", "", "", "", "pictogram, SVG or PNG; instead of `text` or `plain`"},
           {"text", "text", "", "", "", "legend, one line; instead of `file` or `plain`"},
-          {"plain", "choice", "", "", "white, green",
-           "face of one colour; instead of `file` or `text`"},
-          {"legend", "choice", "", "\"white\"", "white, green",
-           "colour of the legend; the other one is the ground"},
+          {"plain", "text", "", "", "",
+           "name of the colour of a face of one colour; instead of `file` or `text`"},
+          {"legend", "text", "", "", "",
+           "name of the legend's colour. Unless said: white on a face of white and green; else, of "
+           "the two colours that cover most of a drawing, the one that covers less"},
+          {"ground", "text", "", "", "",
+           "name of the colour that the legend stands on; unless said the other of two colours, or "
+           "the one that covers most of a drawing"},
+          {"colours", "tables", "", "", "",
+           "the colours of its face, see `[[sign.colours]]`; unless said white and green, by the "
+           "eight keys with their names"},
           {"letter_height", "number", "m", "0.1524", "[0.001, 10]", "of `text` (6 in, NFPA 101)"},
           {"stroke", "number", "m", "0.01905", "[1e-4, 2]", "of `text`; at most 0.2 of the height"},
           {"spacing", "number", "m", "0.009525", "[0, 2]",
@@ -219,6 +226,28 @@ TableSpec sign_keys() {
           {"leads_to", "tables", "", "", "",
            "routes that it belongs to, see below; needed where guidance is assessed over time"},
       }};
+}
+
+TableSpec sign_colour_keys() {
+  return {
+      "sign.colours",
+      "`[[sign.colours]]`: a colour of a sign's face, at most 8",
+      {{"name", "name", "", "required", "",
+        "name of the colour; white, green, red, blue, yellow and black are those of ISO 3864"},
+       {"drawn", "text", "", "", "",
+        "how the drawing prints it, such as \"#9B2423\"; mandatory for other names. A pixel has "
+        "the "
+        "colour that is nearest in CIE Lab, up to 35 away"},
+       {"mains", "number", "cd/m2", "", "[0, 1e6]",
+        "luminance along the normal in mains operation; mandatory with `internal`"},
+       {"emergency", "number", "cd/m2", "", "[0, 1e6]",
+        "luminance along the normal in emergency operation, as `emergency_white`; mandatory with "
+        "`internal` and `photoluminescent`"},
+       {"spectrum", "emission", "", "\"led 4000 K\"", "[0, 1e9]",
+        "shape of its spectrum; unless said that of the default through a film of the colour "
+        "`drawn`, for white the default itself"},
+       {"reflectance", "reflectance", "", "", "[0, 1]",
+        "reflectance; unless said that of a paint of the colour `drawn`"}}};
 }
 
 Keys optics_keys() {
@@ -360,6 +389,7 @@ std::vector<TableSpec> light_schema() {
   std::vector<TableSpec> all = luminaire_keys();
   all.push_back(sign_keys());
   all.push_back(sign_type_keys());
+  all.push_back(sign_colour_keys());
   all.push_back({"sign.leads_to",
                  "`[[sign.leads_to]]`: a route that a sign belongs to",
                  {{"route", "text", "", "required", "", "name of the route"},

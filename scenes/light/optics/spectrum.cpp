@@ -252,6 +252,28 @@ Spectrum white_led_shape(double cct_kelvin) {
   return normalised(lobes[0] * weight[0] + lobes[1] * weight[1] + lobes[2] * weight[2]);
 }
 
+Spectrum coloured_led_shape(LedColour colour) {
+  // Peaks and widths that data sheets of indicator and signal diodes usually state: AlInGaP for red
+  // and yellow, InGaN for green and blue.
+  switch (colour) {
+    case LedColour::red:
+      return lobe(632, 18, 18);
+    case LedColour::yellow:
+      return lobe(590, 15, 15);
+    case LedColour::green:
+      return lobe(525, 32, 32);
+    case LedColour::blue:
+      return lobe(468, 24, 24);
+  }
+  return lobe(632, 18, 18);
+}
+
+Spectrum afterglow_shape() {
+  // SrAl2O4:Eu,Dy (Matsuzawa et al. 1996, J. Electrochem. Soc. 143, 2670): one band of the Eu2+
+  // transition at 520 nm, some 80 nm wide.
+  return lobe(520, 70, 90);
+}
+
 Spectrum equal_energy_shape() {
   return Spectrum::constant(1 / (spectrum_last_nm - spectrum_first_nm));
 }

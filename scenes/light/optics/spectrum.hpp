@@ -48,6 +48,11 @@ Spectrum illuminant_a_shape();
 Spectrum illuminant_d65_shape();
 /// A phosphor-converted white LED of about the given correlated colour temperature (2700..6500 K).
 Spectrum white_led_shape(double cct_kelvin);
+/// A light-emitting diode of one colour, without phosphor.
+enum class LedColour { red, yellow, green, blue };
+Spectrum coloured_led_shape(LedColour colour);
+/// The afterglow of strontium aluminate with europium and dysprosium, as in safety signs.
+Spectrum afterglow_shape();
 Spectrum equal_energy_shape();
 
 /// Luminous flux [lm] per radiant watt within [380, 780] nm of a shape.

@@ -16,6 +16,14 @@ namespace {
 
 constexpr double unreached = 1e18;  // a squared distance that no face has
 
+/// All that a texel may be: a colour of the sign, or none of them.
+constexpr std::array<ColourIndex, limits::max_face_colours + 1> classes = [] {
+  std::array<ColourIndex, limits::max_face_colours + 1> out{};
+  for (size_t i = 0; i < limits::max_face_colours; ++i) out[i] = static_cast<ColourIndex>(i);
+  out.back() = other_colour;
+  return out;
+}();
+
 /// Squared distances along a line: out[i] = min over j of (step (i - j))^2 + at[j].
 class LineDistance {
  public:
@@ -96,10 +104,10 @@ std::vector<size_t> edge_of(const Grid& grid) {
 /// is connected with the edge.
 std::vector<char> ground_of(const SignFace& face, const Grid& grid) {
   const std::vector<size_t> edge = edge_of(grid);
-  std::array<size_t, 3> counts{};
-  for (const size_t i : edge) ++counts[static_cast<size_t>(face.colour[i])];
-  const auto ground =
-      static_cast<SignColour>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  std::array<size_t, classes.size()> counts{};
+  for (const size_t i : edge) ++counts[std::min<size_t>(face.colour[i], classes.size() - 1)];
+  const ColourIndex ground =
+      classes[static_cast<size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin())];
   std::vector<char> out(grid.texels(), 0);
   std::vector<size_t> open;
   const auto reach = [&](size_t i) {
@@ -133,8 +141,9 @@ std::optional<LegendSize> legend_size(const Sign& sign, double width_m) {
   double widest_m = 0;
   size_t parts = 0, finer = 0;
   // A part has one colour.
-  for (const SignColour colour : {SignColour::white, SignColour::green, SignColour::other}) {
+  for (const ColourIndex colour : classes) {
     const auto of_part = [&](size_t i) { return ground[i] == 0 && face.colour[i] == colour; };
+    if (std::find(face.colour.begin(), face.colour.end(), colour) == face.colour.end()) continue;
     auto radius = distances(grid, [&](size_t i) { return !of_part(i); });
     for (size_t i = 0; i < radius.size(); ++i) {
       radius[i] = of_part(i) ? std::min(std::sqrt(radius[i]), to_edge(grid, i)) : 0;

@@ -58,7 +58,8 @@ double average(const Image& map, const SignFace& face, int column, int row) {
 
 }  // namespace
 
-Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
+Result<SignFace> with_luminance_map(SignFace face, const std::vector<FaceColour>& colours,
+                                    const Image& map) {
   if (auto ok = check_map(map); !ok) return ok.problem();
   std::vector<double> luminance;
   luminance.reserve(face.colour.size());
@@ -67,7 +68,8 @@ Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
       luminance.push_back(average(map, face, column, row));
 
   face.relative_luminance.assign(face.colour.size(), 1.0f);
-  for (SignColour colour : {SignColour::white, SignColour::green}) {
+  for (size_t c = 0; c < colours.size(); ++c) {
+    const auto colour = static_cast<ColourIndex>(c);
     double sum = 0;
     int64_t texels = 0;
     for (size_t i = 0; i < luminance.size(); ++i) {
@@ -78,8 +80,7 @@ Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
     if (texels == 0) continue;
     if (!(sum > 0) || !std::isfinite(sum))
       return problem(std::string("the luminance map is black wherever the sign is ") +
-                     (colour == SignColour::white ? "white" : "green") +
-                     "; state that colour's luminance as 0 instead");
+                     colours[c].name + "; state that colour's luminance as 0 instead");
     for (size_t i = 0; i < luminance.size(); ++i)
       if (face.colour[i] == colour)
         face.relative_luminance[i] =

@@ -10,19 +10,18 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "runtime/core/regular_file.hpp"
 #include "scenes/light/signs/draw_svg.hpp"
 #include "scenes/light/signs/drawing_gaps.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/signs/surface_pixels.hpp"
 
 namespace luxodus {
 namespace {
-
-constexpr Rgba iso_green{0x23, 0x7f, 0x52, 0xff};
-constexpr Rgba iso_white{0xec, 0xec, 0xe7, 0xff};
 
 std::string in_mm(double metres) {
   return std::to_string(std::lround(metres * 1000)) + " mm";
@@ -30,32 +29,30 @@ std::string in_mm(double metres) {
 
 // ---- colours -----------------------------------------------------------------------------------
 
-/// IEC 61966-2-1 decoding.
-double linear_from_srgb(uint8_t code) {
-  const double c = code / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-double lab_distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
+/// A pixel whose differences to two colours add up to no more than this multiple of the difference
+/// between them is a mixture of the two, as a smoothed edge has it: it belongs to the nearer one.
+/// Mixtures of safety colours in sRGB exceed the straight line in CIE Lab by up to 7 %.
+constexpr double mixture_slack = 1.08;
 
 /// Classifies each run of equal pixels once: a sign's drawing consists of runs.
 class Classifier {
  public:
-  SignColour operator()(const Rgba& rgba) {
+  explicit Classifier(const std::vector<FaceColour>& colours) : colours_(colours) {}
+
+  ColourIndex operator()(const Rgba& rgba) {
     if (!known_ || rgba != last_) {
       known_ = true;
       last_ = rgba;
-      colour_ = classify_colour(rgba);
+      colour_ = classify_colour(rgba, colours_);
     }
     return colour_;
   }
 
  private:
+  const std::vector<FaceColour>& colours_;
   bool known_ = false;
   Rgba last_{};
-  SignColour colour_ = SignColour::other;
+  ColourIndex colour_ = other_colour;
 };
 
 // ---- the texel grid ----------------------------------------------------------------------------
@@ -81,7 +78,7 @@ Result<SignFace> blank_face(double width_m, double height_m, int texels_across) 
   face.width = texels_across;
   face.height = static_cast<int>(down);
   face.colour.assign(static_cast<size_t>(face.width) * static_cast<size_t>(face.height),
-                     SignColour::other);
+                     other_colour);
   return face;
 }
 
@@ -90,17 +87,23 @@ int samples_per_texel(const SignFace& face) {
   return static_cast<int64_t>(face.colour.size()) * 16 <= limits::max_picture_pixels ? 4 : 2;
 }
 
+/// Votes for each colour of the sign, then those for none of them.
+using Votes = std::array<int, limits::max_face_colours + 1>;
+
 /// `other` needs the majority, so that neither a blurred edge nor a hairline makes a seam. A tie
 /// goes to the middle sample: if it always went to one colour, that colour would grow.
-SignColour winner(const std::array<int, 3>& votes, SignColour middle) {
-  const int white = votes[0], green = votes[1], other = votes[2];
-  if (other > white + green) return SignColour::other;
-  if (white == green) return middle == SignColour::green ? middle : SignColour::white;
-  return white > green ? SignColour::white : SignColour::green;
+ColourIndex winner(const Votes& votes, ColourIndex middle) {
+  const auto last = votes.end() - 1;
+  if (*last > std::accumulate(votes.begin(), last, 0)) return other_colour;
+  const auto most = std::max_element(votes.begin(), last);
+  if (middle != other_colour && votes[middle] == *most) return middle;
+  return static_cast<ColourIndex>(most - votes.begin());
 }
 
-/// Fills the face from pixels that cover it exactly. Requires: pixels of at least 1 by 1.
-void vote(SignFace& face, const Pixels& pixels) {
+/// Fills the face from pixels that cover it exactly. `classify` gives the colour of a pixel.
+/// Requires: pixels of at least 1 by 1.
+template <class Classify>
+void vote(SignFace& face, const Pixels& pixels, Classify classify) {
   // At least the 4 by 4 of our own drawings; finer pictures are sampled up to 16 by 16.
   const int across = std::clamp(pixels.width / face.width, 4, 16);
   const int down = std::clamp(pixels.height / face.height, 4, 16);
@@ -108,18 +111,17 @@ void vote(SignFace& face, const Pixels& pixels) {
     const double position = (texel + (sample + 0.5) / samples) / texels;
     return std::min(static_cast<int>(position * count), count - 1);
   };
-  Classifier classify;
   for (int row = 0; row < face.height; ++row) {
     for (int column = 0; column < face.width; ++column) {
-      std::array<int, 3> votes{};
-      SignColour middle = SignColour::other;
+      Votes votes{};
+      ColourIndex middle = other_colour;
       for (int j = 0; j < down; ++j) {
         const int y = pixel_at(row, j, down, face.height, pixels.height);
         const size_t line = static_cast<size_t>(y) * static_cast<size_t>(pixels.width);
         for (int i = 0; i < across; ++i) {
           const int x = pixel_at(column, i, across, face.width, pixels.width);
-          const SignColour colour = classify(pixels.rgba[line + static_cast<size_t>(x)]);
-          ++votes[static_cast<size_t>(colour)];
+          const ColourIndex colour = classify(pixels.rgba[line + static_cast<size_t>(x)]);
+          ++votes[std::min<size_t>(colour, limits::max_face_colours)];
           if (j == down / 2 && i == across / 2) middle = colour;
         }
       }
@@ -130,13 +132,13 @@ void vote(SignFace& face, const Pixels& pixels) {
   }
 }
 
-/// A pictogram is read by the contrast between its two colours, so it must have both.
-Result<void> check_colours(const SignFace& face) {
-  for (auto [colour, name] : {std::pair{SignColour::white, "white (like #ECECE7)"},
-                              std::pair{SignColour::green, "green (like #237F52)"}})
-    if (colour_share(face, colour) == 0)
-      return problem(std::string("nothing in it is ") + name +
-                     "; an exit sign is drawn in ISO 3864 green and white");
+/// A pictogram is read by the contrast between its colours, so it must have all of them.
+Result<void> check_colours(const SignFace& face, const std::vector<FaceColour>& colours) {
+  for (size_t i = 0; i < colours.size(); ++i)
+    if (colour_share(face, static_cast<ColourIndex>(i)) == 0)
+      return problem("nothing in it is " + colours[i].name + " (like " +
+                     hex_text(colours[i].drawn) +
+                     "); its colours are to be: " + colour_names(colours));
   return {};
 }
 
@@ -202,8 +204,8 @@ Result<Pixels> read_png(const std::filesystem::path& file) {
   return out;
 }
 
-void set_colour(cairo_t* pen, const Rgba& rgba) {
-  cairo_set_source_rgb(pen, rgba[0] / 255.0, rgba[1] / 255.0, rgba[2] / 255.0);
+void set_grey(cairo_t* pen, double grey) {
+  cairo_set_source_rgb(pen, grey, grey, grey);
 }
 
 /// Requires: a user space in metres with y up.
@@ -239,32 +241,27 @@ Result<void> check_legend(const Lettering& lettering, double width_m, double hei
 
 }  // namespace
 
-std::array<double, 3> lab_from_srgb(uint8_t r8, uint8_t g8, uint8_t b8) {
-  const double r = linear_from_srgb(r8), g = linear_from_srgb(g8), b = linear_from_srgb(b8);
-  // sRGB to XYZ (IEC 61966-2-1), divided by its own white so that white is exactly (100, 0, 0).
-  const double x = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505;
-  const double y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-  const double z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0890;
-  const auto f = [](double t) {
-    constexpr double delta = 6.0 / 29.0;
-    return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0 / 29.0;
-  };
-  return {116 * f(y) - 16, 500 * (f(x) - f(y)), 200 * (f(y) - f(z))};
-}
-
-SignColour classify_colour(const std::array<uint8_t, 4>& rgba) {
-  if (rgba[3] < 128) return SignColour::other;
-  const auto lab = lab_from_srgb(rgba[0], rgba[1], rgba[2]);
-  const double to_white =
-      lab_distance(lab, lab_from_srgb(iso_white[0], iso_white[1], iso_white[2]));
-  const double to_green =
-      lab_distance(lab, lab_from_srgb(iso_green[0], iso_green[1], iso_green[2]));
-  if (std::min(to_white, to_green) > limits::max_sign_colour_distance) return SignColour::other;
-  return to_white <= to_green ? SignColour::white : SignColour::green;
+ColourIndex classify_colour(const std::array<uint8_t, 4>& rgba,
+                            const std::vector<FaceColour>& colours) {
+  if (rgba[3] < 128) return other_colour;
+  std::array<double, limits::max_face_colours> away{};
+  const size_t count = std::min(colours.size(), limits::max_face_colours);
+  for (size_t i = 0; i < count; ++i)
+    away[i] = colour_difference({rgba[0], rgba[1], rgba[2]}, colours[i].drawn);
+  const auto nearest = static_cast<size_t>(
+      std::min_element(away.begin(), away.begin() + static_cast<ptrdiff_t>(count)) - away.begin());
+  if (nearest == count) return other_colour;
+  if (away[nearest] <= limits::max_sign_colour_distance) return static_cast<ColourIndex>(nearest);
+  for (size_t i = 0; i < count; ++i) {
+    const double apart = colour_difference(colours[i].drawn, colours[nearest].drawn);
+    if (i != nearest && away[i] + away[nearest] <= mixture_slack * apart)
+      return static_cast<ColourIndex>(nearest);
+  }
+  return other_colour;
 }
 
 Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m, double height_m,
-                               int texels_across) {
+                               int texels_across, const std::vector<FaceColour>& colours) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
   if (!face) return problem_in(file, face.problem());
   Result<std::string> bytes = read_drawing(file);
@@ -275,8 +272,8 @@ Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m
   if (!svg) return problem_in(file, svg.problem());
   if (auto ok = check_aspect(svg->width, svg->height, width_m, height_m); !ok)
     return problem_in(file, ok.problem());
-  vote(face.value(), svg->pixels);
-  if (auto ok = check_colours(face.value()); !ok) return problem_in(file, ok.problem());
+  vote(face.value(), svg->pixels, Classifier(colours));
+  if (auto ok = check_colours(face.value(), colours); !ok) return problem_in(file, ok.problem());
   return face;
 }
 
@@ -286,25 +283,25 @@ std::vector<std::string> gaps_of_svg(const std::filesystem::path& file) {
 }
 
 Result<SignFace> face_from_png(const std::filesystem::path& file, double width_m, double height_m,
-                               int texels_across) {
+                               int texels_across, const std::vector<FaceColour>& colours) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
   if (!face) return problem_in(file, face.problem());
   Result<Pixels> pixels = read_png(file);
   if (!pixels) return pixels.problem();
   if (auto ok = check_aspect(pixels->width, pixels->height, width_m, height_m); !ok)
     return problem_in(file, ok.problem());
-  vote(face.value(), pixels.value());
-  if (auto ok = check_colours(face.value()); !ok) return problem_in(file, ok.problem());
+  vote(face.value(), pixels.value(), Classifier(colours));
+  if (auto ok = check_colours(face.value(), colours); !ok) return problem_in(file, ok.problem());
   return face;
 }
 
 Result<SignFace> face_from_text(std::string_view text, double width_m, double height_m,
                                 double letter_height_m, double stroke_m, double spacing_m,
-                                SignColour legend, int texels_across) {
+                                ColourIndex legend, ColourIndex ground, int texels_across) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
   if (!face) return face.problem();
-  if (legend == SignColour::other)
-    return problem("a legend is white or green; the ground takes the other of the two");
+  if (legend == ground || std::max(legend, ground) >= limits::max_face_colours)
+    return problem("a text needs a colour for its legend and another one for its ground");
   Result<Lettering> lettering = lay_out_text(text, {letter_height_m, stroke_m, spacing_m});
   if (!lettering) return lettering.problem();
   if (auto ok = check_legend(lettering.value(), width_m, height_m, texels_across); !ok)
@@ -314,10 +311,10 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
   const int across = face->width * samples, down = face->height * samples;
   Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, across, down));
   Pen pen(cairo_create(surface.get()));
-  const bool white_on_green = legend == SignColour::white;
-  set_colour(pen.get(), white_on_green ? iso_green : iso_white);
+  // A mask of the legend: nothing is smoothed, so a pixel is black or white.
+  set_grey(pen.get(), 0);
   cairo_paint(pen.get());
-  set_colour(pen.get(), white_on_green ? iso_white : iso_green);
+  set_grey(pen.get(), 1);
   cairo_set_antialias(pen.get(), CAIRO_ANTIALIAS_NONE);
   cairo_translate(pen.get(), 0, down);
   cairo_scale(pen.get(), across / width_m, -down / height_m);
@@ -329,12 +326,14 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
   for (const LetterShape& letter : lettering->letters) draw_letter(pen.get(), letter);
   if (cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
     return problem("the legend cannot be drawn: out of memory", ProblemKind::no_room);
-  vote(face.value(), pixels_of(surface.get()));
+  vote(face.value(), pixels_of(surface.get()),
+       [&](const Rgba& rgba) { return rgba[0] > 0 ? legend : ground; });
   face->legend = legend;
+  face->ground = ground;
   return face;
 }
 
-Result<SignFace> uniform_face(SignColour colour, double width_m, double height_m,
+Result<SignFace> uniform_face(ColourIndex colour, double width_m, double height_m,
                               int texels_across) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
   if (face) std::fill(face->colour.begin(), face->colour.end(), colour);
@@ -348,10 +347,18 @@ size_t texel_index(const SignFace& face, double u, double v) {
   return cell(v, face.height) * static_cast<size_t>(face.width) + cell(u, face.width);
 }
 
-double colour_share(const SignFace& face, SignColour colour) {
+double colour_share(const SignFace& face, ColourIndex colour) {
   if (face.colour.empty()) return 0;
   const auto count = std::count(face.colour.begin(), face.colour.end(), colour);
   return static_cast<double>(count) / static_cast<double>(face.colour.size());
+}
+
+std::array<double, 2> part_shares(const SignFace& face) {
+  const auto share = [&](ColourIndex part) {
+    return part == other_colour ? 0 : colour_share(face, part);
+  };
+  const auto [first, second] = face.parts();
+  return {share(first), share(second)};
 }
 
 }  // namespace luxodus

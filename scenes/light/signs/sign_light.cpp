@@ -27,16 +27,16 @@ double decay_share(const std::vector<glm::dvec2>& decay, double seconds) {
   return std::clamp(beyond, 0.0, decay.back().y);
 }
 
-double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
+double sign_luminance(const Sign& sign, ColourIndex colour, Operation operation,
                       double seconds_after_failure, double cos_from_normal) {
-  if (colour == SignColour::other || !(cos_from_normal > 0)) return 0;
+  if (colour >= sign.colours.size() || !(cos_from_normal > 0)) return 0;
   if (sign.lighting == SignLighting::external) return 0;
   const bool glows = sign.lighting == SignLighting::photoluminescent;
   if (operation == Operation::dark && !glows) return 0;
   const bool mains = operation == Operation::mains;
   if (!mains && !glows && is_exhausted(sign.duration_s, seconds_after_failure)) return 0;
-  const SignState& state = mains ? sign.mains : sign.emergency;
-  const double normal_cd_m2 = colour == SignColour::white ? state.white_cd_m2 : state.green_cd_m2;
+  const FaceColour& own = sign.colours[colour];
+  const double normal_cd_m2 = mains ? own.mains_cd_m2 : own.emergency_cd_m2;
   const double left = glows && !mains ? decay_share(sign.decay, seconds_after_failure) : 1.0;
   return normal_cd_m2 * left * std::pow(std::min(cos_from_normal, 1.0), sign.angular_exponent);
 }

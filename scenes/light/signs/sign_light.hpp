@@ -21,7 +21,7 @@ double decay_share(const std::vector<glm::dvec2>& decay, double seconds);
 /// cosine with the face's normal is given: L cos^n. In operation `dark` only photoluminescent signs
 /// emit; externally lit signs emit nothing (their light is reflected), nor does `other`. The caller
 /// applies a circuit's factor and a face's luminance map.
-double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
+double sign_luminance(const Sign& sign, ColourIndex colour, Operation operation,
                       double seconds_after_failure, double cos_from_normal);
 
 }  // namespace luxodus

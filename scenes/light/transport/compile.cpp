@@ -47,10 +47,8 @@ std::vector<Spectrum> scene_properties(const SceneDescription& scene, const Scen
       add_unique(out, reflectance_from_linear_srgb(0, 0, 1));
     }
   }
-  for (const Sign& s : scene.signs) {
-    add_unique(out, s.white_reflectance);
-    add_unique(out, s.green_reflectance);
-  }
+  for (const Sign& s : scene.signs)
+    for (const FaceColour& colour : s.colours) add_unique(out, colour.reflectance);
   for (const Medium& m : scene.media) {
     if (extinction_factor(scenario, m.name) <= 0) continue;
     const auto add_optics = [&](const SmokeOptics& o) {
@@ -217,7 +215,8 @@ double level_of(const CompiledScene& scene) {
   double lumens = 0, brightest = 0;
   for (const CompiledEmitter& e : scene.emitters) lumens += e.luminous_flux_lm;
   for (const CompiledSign& sign : scene.signs)
-    brightest = std::max({brightest, sign.white_cd_m2, sign.green_cd_m2});
+    for (const CompiledFaceColour& colour : sign.colours)
+      brightest = std::max(brightest, colour.luminance_cd_m2);
   const auto size_m = static_cast<double>(scene.diagonal_m);
   return std::max(lumens / (size_m * size_m), brightest / 1000);
 }
@@ -338,17 +337,16 @@ Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
     if (s.sign == nullptr) continue;
     const CompiledEmitter& e = scene.emitters.back();
     CompiledSign& sign = scene.signs[e.sign];
-    auto& radiance = s.colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
+    std::vector<double>& radiance = sign.colours[s.colour].radiance;
     // Fifteen digits of pi, kept: one more would change the last bits of eye results.
     for (const double p : e.power_w) {
       radiance.push_back(p * (static_cast<double>(e.exponent) + 1) /
                          (2 * 3.14159265358979 * e.area_m2));
     }
   }
-  for (CompiledSign& sign : scene.signs) {
-    sign.white_radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
-    sign.green_radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
-  }
+  for (CompiledSign& sign : scene.signs)
+    for (CompiledFaceColour& colour : sign.colours)
+      colour.radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
   compile_groups(scene, groups);
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     if (!has_own_face(scene.emitters[i])) continue;
@@ -359,8 +357,7 @@ Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
   for (size_t i = 0; i < sources.size(); ++i) {
     if (sources[i].sign == nullptr) continue;
     CompiledSign& sign = scene.signs[scene.emitters[i].sign];
-    const bool white = sources[i].colour == SignColour::white;
-    (white ? sign.white_group : sign.green_group) = scene.emitters[i].group;
+    sign.colours[sources[i].colour].group = scene.emitters[i].group;
   }
   return {};
 }

@@ -54,7 +54,8 @@ void add_signs(const SceneDescription& scene, const Scenario& scenario,
   for (uint32_t i = 0; i < scene.signs.size(); ++i) {
     const Sign& sign = scene.signs[i];
     for (int back = 0; back < (sign.double_sided ? 2 : 1); ++back) {
-      for (const SignColour colour : {SignColour::white, SignColour::green}) {
+      for (size_t c = 0; c < sign.colours.size(); ++c) {
+        const auto colour = static_cast<ColourIndex>(c);
         const double luminance = scenario_luminance(sign, colour, scenario);
         const double area = sign_colour_area_m2(sign, colour);
         if (luminance <= 0 || area <= 0) continue;
@@ -63,12 +64,11 @@ void add_signs(const SceneDescription& scene, const Scenario& scenario,
         s.description_index = i;
         s.sign_back = back == 1;
         s.colour = colour;
-        s.shape = colour == SignColour::white ? sign.white_shape : sign.green_shape;
+        s.shape = sign.colours[c].shape;
         // L cos^n over the hemisphere, projected: L A 2 pi / (n + 2).
         s.lumens = luminance * area * 2 * std::numbers::pi / (sign.angular_exponent + 2);
         s.watts = s.lumens / efficacy_lm_per_w(s.shape);
-        s.name =
-            sign.name + (back ? " back" : "") + (colour == SignColour::white ? " white" : " green");
+        s.name = sign.name + (back ? " back " : " ") + sign.colours[c].name;
         s.group = !sign.group.empty() ? sign.group : sign.circuit;
         s.place = sign.place;
         out.push_back(std::move(s));
@@ -125,7 +125,7 @@ double factor_of_medium(const Scenario& scenario, const Medium& medium) {
   return flame ? 1.0 : scenario.smoke_factor;
 }
 
-double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario) {
+double scenario_luminance(const Sign& sign, ColourIndex colour, const Scenario& scenario) {
   // A photoluminescent face emits stored light, whatever the circuits do.
   const double circuit = sign.lighting == SignLighting::photoluminescent
                              ? 1
@@ -134,7 +134,7 @@ double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& s
          sign_luminance(sign, colour, scenario.operation, scenario.seconds_after_failure, 1.0);
 }
 
-double sign_colour_area_m2(const Sign& sign, SignColour colour) {
+double sign_colour_area_m2(const Sign& sign, ColourIndex colour) {
   const auto count = std::count(sign.face.colour.begin(), sign.face.colour.end(), colour);
   if (sign.face.colour.empty()) return 0;
   return sign.width_m * sign.height_m * static_cast<double>(count) /

@@ -16,7 +16,7 @@ struct ActiveSource {
   const Sign* sign = nullptr;
   uint32_t description_index = 0;
   bool sign_back = false;
-  SignColour colour = SignColour::white;
+  ColourIndex colour = 0;
   double lumens = 0;
   double watts = 0;  // within 380..780 nm
   Spectrum shape;    // integral 1
@@ -39,10 +39,10 @@ double factor_of_medium(const Scenario& scenario, const Medium& medium);
 double flame_share(const Scenario& scenario, const Medium& medium);
 
 /// Luminance [cd/m2] of a sign's colour along the normal in this scenario.
-double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario);
+double scenario_luminance(const Sign& sign, ColourIndex colour, const Scenario& scenario);
 
 /// Area [m2] of one colour on one face.
-double sign_colour_area_m2(const Sign& sign, SignColour colour);
+double sign_colour_area_m2(const Sign& sign, ColourIndex colour);
 
 /// Everything that emits in this scenario; sources of zero flux are left out.
 std::vector<ActiveSource> active_sources(const SceneDescription& scene, const Scenario& scenario);

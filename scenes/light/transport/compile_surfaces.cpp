@@ -394,13 +394,14 @@ void compile_sign_faces(CompiledScene& scene) {
       out.frame = side == 0 ? sign.frame : back_frame(sign);
       out.origin = Vec3(out.frame.origin - scene.local_origin);
       out.axes = Mat3(out.frame.axes);
-      out.white_cd_m2 = scenario_luminance(sign, SignColour::white, scene.scenario);
-      out.green_cd_m2 = scenario_luminance(sign, SignColour::green, scene.scenario);
-      for (int b = 0; b < scene.bands.count(); ++b) {
-        out.white_reflectance.push_back(
-            static_cast<Real>(scene.bands.average(sign.white_reflectance, b)));
-        out.green_reflectance.push_back(
-            static_cast<Real>(scene.bands.average(sign.green_reflectance, b)));
+      out.parts = sign.face.parts();
+      for (size_t c = 0; c < sign.colours.size(); ++c) {
+        CompiledFaceColour& colour = out.colours.emplace_back();
+        colour.luminance_cd_m2 =
+            scenario_luminance(sign, static_cast<ColourIndex>(c), scene.scenario);
+        for (int b = 0; b < scene.bands.count(); ++b)
+          colour.reflectance.push_back(
+              static_cast<Real>(scene.bands.average(sign.colours[c].reflectance, b)));
       }
       scene.signs.push_back(std::move(out));
     }

@@ -168,7 +168,8 @@ struct Features {
   bool detectors = false;  // planes, volume groups or voxels
 };
 
-/// Estimates along the rays to one part (white, green, surround) of a sign: mean luminances [cd/m2]
+/// Estimates along the rays to one part (legend and ground in the order of SignFace::parts,
+/// surround) of a sign: mean luminances [cd/m2]
 /// at the face (own, reflected), at the eye (face and path together), of the path alone, the
 /// transmission, and the share of the part that no solid hides. Scored as values, see
 /// eye_paths.hpp.
@@ -188,7 +189,15 @@ enum class MixtureEyeQuantity : uint32_t { reflected, at_eye };
 struct EyeTarget {
   uint32_t observer = 0;
   uint32_t sign = 0;       // compiled face
-  uint32_t first_bin = 0;  // in the views block: white, green, surround
+  uint32_t first_bin = 0;  // in the views block: the face's two parts, surround
+};
+
+/// One colour of a face.
+struct CompiledFaceColour {
+  int group = 0;                 // source group of the light it emits
+  double luminance_cd_m2 = 0;    // along the normal, in this scenario
+  std::vector<double> radiance;  // [W/(m2 sr)] per band
+  std::vector<Real> reflectance;
 };
 
 /// One face of a sign.
@@ -196,13 +205,11 @@ struct CompiledSign {
   uint32_t sign = 0;  // index in the description
   bool back = false;
   uint32_t surface = none_index;
-  int white_group = 0, green_group = 0;  // source groups of the light it emits
-  Frame frame;                           // local origin kept in double
-  Vec3 origin{0};                        // local
+  Frame frame;     // local origin kept in double
+  Vec3 origin{0};  // local
   Mat3 axes{1.0_r};
-  double white_cd_m2 = 0, green_cd_m2 = 0;             // along the normal, in this scenario
-  std::vector<double> white_radiance, green_radiance;  // [W/(m2 sr)] per band
-  std::vector<Real> white_reflectance, green_reflectance;
+  std::vector<CompiledFaceColour> colours;  // those of the sign
+  std::array<ColourIndex, 2> parts{};       // SignFace::parts
 };
 
 struct Group {

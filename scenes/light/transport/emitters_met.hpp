@@ -130,14 +130,13 @@ class EmittersMet {
   SourceLight texel_light(const CompiledSign& sign, const Vec2& uv, const Vec3& to_eye,
                           int band) const {
     const Sign& d = scene_.description->signs[sign.sign];
-    const SignColour colour = d.face.colour[texel_at(d.face, uv)];
-    if (colour == SignColour::other) return {};
-    const bool white = colour == SignColour::white;
-    const auto& radiance = white ? sign.white_radiance : sign.green_radiance;
+    const ColourIndex index = d.face.colour[texel_at(d.face, uv)];
+    if (index == other_colour) return {};
+    const CompiledFaceColour& colour = sign.colours[index];
     const double cosine = std::max(0.0, static_cast<double>(glm::dot(sign.axes[2], to_eye)));
     const double angular = d.angular_exponent == 0 ? 1 : std::pow(cosine, d.angular_exponent);
-    return {white ? sign.white_group : sign.green_group,
-            radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv)};
+    return {colour.group,
+            colour.radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv)};
   }
 
   /// Adds `weight` times the emission of flames along `length` of the ray, for one medium or all

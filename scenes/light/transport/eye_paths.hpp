@@ -5,6 +5,7 @@
 // own. Thread rule: one EyeScores per thread or fiber.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -14,10 +15,8 @@
 
 namespace luxodus {
 
-/// The texels of each colour of a face, to aim at.
-struct FaceTexels {
-  std::vector<uint32_t> white, green;
-};
+/// The texels of each part of a face (SignFace::parts), to aim at.
+using FaceTexels = std::array<std::vector<uint32_t>, 2>;
 FaceTexels list_texels(const SignFace& face);
 
 template <class Resolver>
@@ -40,7 +39,7 @@ class EyeScores {
       texels_.push_back(list_texels(scene.description->signs[s.sign].face));
   }
 
-  /// Units: the parts of signs (white, green and surround of each target), then probes. Each has
+  /// Units: the parts of signs (legend, ground and surround of each target), then probes. Each has
   /// its own paths and bins, so that they may be traced in any order.
   uint32_t units() const {
     return static_cast<uint32_t>(3 * scene_.eye_targets.size() + scene_.description->probes.size());
@@ -146,8 +145,7 @@ class EyeScores {
       }
       return false;
     }
-    const std::vector<uint32_t>& texels =
-        part == 0 ? texels_[target.sign].white : texels_[target.sign].green;
+    const std::vector<uint32_t>& texels = texels_[target.sign][part];
     if (texels.empty()) return false;
     const uint64_t r = random_.bits();
     const uint32_t texel = texels[(r * texels.size()) >> 32];
@@ -268,7 +266,7 @@ class EyeScores {
   void reflect_room_light(const CompiledSign& sign, uint32_t part, const Vec3& place,
                           const Vec3& direction, const PathBand& chosen) {
     light_.clear();
-    const auto& rho = part == 0 ? sign.white_reflectance : sign.green_reflectance;
+    const std::vector<Real>& rho = sign.colours[sign.parts[part]].reflectance;
     const SurfaceModel model =
         make_surface(SurfaceKind::lambertian,
                      static_cast<double>(rho[static_cast<size_t>(chosen.band)]), 0, 1, 1, 1);

@@ -33,12 +33,9 @@ SurfaceModel surface_at(const CompiledScene& scene, const Hit& hit, bool front, 
   if (surface.sign != none_index && front) {
     const CompiledSign& sign = scene.signs[surface.sign];
     const SignFace& face = scene.description->signs[sign.sign].face;
-    const SignColour colour = face.colour[texel_at(face, texture_uv(*hit.cell, hit))];
-    if (colour != SignColour::other) {
-      const auto b = static_cast<size_t>(band);
-      model.reflectance =
-          colour == SignColour::white ? sign.white_reflectance[b] : sign.green_reflectance[b];
-    }
+    const ColourIndex colour = face.colour[texel_at(face, texture_uv(*hit.cell, hit))];
+    if (colour != other_colour)
+      model.reflectance = sign.colours[colour].reflectance[static_cast<size_t>(band)];
   } else if (material.image != none_index) {
     const Image& image = *scene.images[material.image];
     const glm::ivec2 at = texel_of(image, texture_uv(*hit.cell, hit));

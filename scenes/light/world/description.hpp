@@ -4,6 +4,7 @@
 // Immutable once read; any thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -138,17 +140,56 @@ struct Emitter {
 
 enum class SignLighting { internal, external, photoluminescent };
 
-/// The class of each texel of a face. White and green are the colours of legend and ground;
-/// `legend` says which is which. `other` is neither (a border, a lamp cover).
-enum class SignColour : uint8_t { white, green, other };
+namespace limits {
+inline constexpr size_t max_face_colours = 8;
+}  // namespace limits
 
+/// Place of a colour among those of its sign.
+using ColourIndex = uint8_t;
+/// None of them: a border, a lamp cover.
+inline constexpr ColourIndex other_colour = 0xFF;
+
+/// One colour of a sign's face.
+struct FaceColour {
+  std::string name;
+  std::array<uint8_t, 3> drawn{};  // sRGB in drawings
+  double mains_cd_m2 = 0;          // luminance along the normal
+  double emergency_cd_m2 = 0;
+  Spectrum shape = equal_energy_shape();  // of its own light, integral 1
+  Spectrum reflectance = Spectrum::constant(0.7);
+};
+
+/// ISO 3864 white and green, with their luminances [cd/m2] in this order.
+inline std::vector<FaceColour> white_and_green(const glm::dvec2& mains = glm::dvec2(0),
+                                               const glm::dvec2& emergency = glm::dvec2(0)) {
+  FaceColour white{.name = "white",
+                   .drawn = {0xEC, 0xEC, 0xE7},
+                   .mains_cd_m2 = mains.x,
+                   .emergency_cd_m2 = emergency.x};
+  FaceColour green{.name = "green",
+                   .drawn = {0x23, 0x7F, 0x52},
+                   .mains_cd_m2 = mains.y,
+                   .emergency_cd_m2 = emergency.y,
+                   .reflectance = Spectrum::constant(0.15)};
+  return {std::move(white), std::move(green)};
+}
+
+/// A picture of the sign's colours. The contrast of legend and ground makes it legible; other
+/// colours shine and reflect like them.
 struct SignFace {
   int width = 0;  // texels; square texels up to rounding
   int height = 0;
-  std::vector<SignColour> colour;  // top row first, as a reader sees it
+  std::vector<ColourIndex> colour;  // top row first, as a reader sees it
   std::vector<float>
       relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
-  SignColour legend = SignColour::white;
+  ColourIndex legend = 0;
+  ColourIndex ground = 1;  // other_colour: the face has one colour
+
+  /// Legend and ground in the order of the sign's colours: the parts that eye paths estimate.
+  std::array<ColourIndex, 2> parts() const {
+    return {std::min(legend, ground), std::max(legend, ground)};
+  }
+  size_t legend_part() const { return legend < ground ? 0 : 1; }
 };
 
 /// Direction of the arrow on a sign's front, as its reader sees it.
@@ -158,11 +199,6 @@ enum class SignArrow { left, right, ahead };
 struct LeadsTo {
   std::string route;
   SignArrow arrow = SignArrow::ahead;
-};
-
-struct SignState {
-  double white_cd_m2 = 0;  // luminance of each colour along the normal
-  double green_cd_m2 = 0;
 };
 
 /// Letters of a text sign.
@@ -187,19 +223,14 @@ struct Sign {
   std::string ifc_guid;  // GlobalId in the model it came from; "" if none
   bool double_sided = false;
   double thickness_m = 0.03;  // distance between the two faces
+  std::vector<FaceColour> colours = white_and_green();
   SignFace face;
   SignLighting lighting = SignLighting::internal;
-  SignState mains;
-  SignState emergency;
   std::optional<double> duration_s;  // of the emergency supply; dark afterwards
   std::vector<LeadsTo> leads_to;     // routes that it marks
   double angular_exponent = 0;       // luminance ~ cos^n from the normal; 0: Lambertian
   std::vector<glm::dvec2>
       decay;  // photoluminescent: time after excitation [s], share of the luminance
-  Spectrum white_shape = equal_energy_shape();
-  Spectrum green_shape = equal_energy_shape();
-  Spectrum white_reflectance = Spectrum::constant(0.7);
-  Spectrum green_reflectance = Spectrum::constant(0.15);
 };
 
 // ---- measurements -----------------------------------------------------------------------------
@@ -315,9 +346,17 @@ struct EmphasisPoint {
   std::optional<glm::dvec3> facing;  // direction that the front of equipment faces
 };
 
+/// Eyes that signs are judged for beside those of the stated age.
+struct OtherEyes {
+  std::string name;                 // as the scene names them: "75", "protan"
+  std::optional<double> age_years;  // that of the assessment unless stated
+  bool protan = false;              // without cones for long wavelengths
+};
+
 /// Assumptions about people and smoke.
 struct AssessmentSettings {
   double age_years = 65;
+  std::vector<OtherEyes> other_eyes;
   std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
   double spacing_m = 2;                 // spacing of observers along routes
   bool smoke_expected = true;           // smoke may occur where signs are (EN 1838)

@@ -41,6 +41,8 @@ test('a scene with a wrong field is refused, and the field named', () => {
   assert.throws(harmed((s) => (s.groups[0].kind = 'sun')), named(/groups\[0\]\.kind/));
   assert.throws(harmed((s) => (s.groups[1].light = 'old')), named(/groups\[1\]\.light/));
   assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
+  assert.throws(harmed((s) => (s.signs[1].colours = Array(9).fill([1, 1, 1]))),
+    named(/signs\[1\]\.colours/));
   assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
   assert.throws(harmed((s) => (s.flames[0].count = [10, 10, 17])), named(/flames\[0\]\.cells/));
   assert.throws(harmed((s) => (s.flames[0].count = [65, 1, 1])), named(/flames\[0\]\.count/));

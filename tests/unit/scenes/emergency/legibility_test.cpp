@@ -18,7 +18,7 @@ Sign two_coloured() {
   sign.smallest_detail_m = 0.015;
   sign.face.width = 2;
   sign.face.height = 1;
-  sign.face.colour = {SignColour::white, SignColour::green};
+  sign.face.colour = {0, 1};
   return sign;
 }
 
@@ -199,7 +199,7 @@ TEST_CASE("hidden signs, half-hidden signs and faces of one colour get no verdic
   CHECK(judged_at(10, look).verdict == SightVerdict::not_assessed);
   CHECK(judged_at(10, look).reason);
   Sign plain = two_coloured();
-  plain.face.colour = {SignColour::white, SignColour::white};
+  plain.face.colour = {0, 0};
   const Sight sight = judge_sight(plain, view_of_sign(plain, {0, 0, 10}), clear(), {});
   CHECK(sight.verdict == SightVerdict::not_assessed);
 }

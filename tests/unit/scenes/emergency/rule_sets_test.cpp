@@ -46,12 +46,11 @@ SceneDescription building() {
   sign.width_m = 0.3;
   sign.height_m = 0.15;
   sign.frame.origin = {5, 1, 2.3};
-  sign.mains = {400, 80};
-  sign.emergency = {90, 12};
+  sign.colours = white_and_green({400, 80}, {90, 12});
   sign.letters = SignLetters{0.15, 0.02};
   sign.face.width = 2;
   sign.face.height = 1;
-  sign.face.colour = {SignColour::white, SignColour::green};
+  sign.face.colour = {0, 1};
   scene.signs.push_back(sign);
   EmphasisPoint hose;
   hose.name = "hose";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/emergency/rule_table.hpp"
 #include "scenes/light/signs/sign_face.hpp"
 #include "tests/unit/scenes/emergency/code_choices.hpp"
 
@@ -64,11 +65,10 @@ Sign sign_of(double white, double green) {
   sign.width_m = 0.3;
   sign.height_m = 0.15;
   sign.frame.origin = {5, 1, 2.3};
-  sign.mains = {500, 100};
-  sign.emergency = {white, green};
+  sign.colours = white_and_green({500, 100}, {white, green});
   sign.face.width = 2;
   sign.face.height = 1;
-  sign.face.colour = {SignColour::white, SignColour::green};
+  sign.face.colour = {0, 1};
   return sign;
 }
 
@@ -496,19 +496,54 @@ TEST_CASE(
   SceneDescription scene = corridor();
   Sign lit = sign_of(0, 0);
   lit.lighting = SignLighting::external;
-  lit.green_reflectance = Spectrum::constant(0.15);
-  lit.white_reflectance = Spectrum::constant(0.75);
+  lit.colours[1].reflectance = Spectrum::constant(0.15);
+  lit.colours[0].reflectance = Spectrum::constant(0.75);
   const auto dim = checks_of_sign(scene, lit, 60, {}, en13);
   CHECK(of(dim, "S1").verdict == CheckVerdict::fail);
   CHECK(*of(dim, "S1").value == Approx(60 * 0.15 / std::numbers::pi));  // Lambert
   CHECK(*of(dim, "S3").value == Approx(5));
   // A mean does not show how dim the dimmest place is.
   CHECK(of(checks_of_sign(scene, lit, 300, {}, en13), "S1").verdict == CheckVerdict::not_assessed);
-  lit.white_reflectance = Spectrum::constant(0.1);
+  lit.colours[0].reflectance = Spectrum::constant(0.1);
   CHECK(of(checks_of_sign(scene, lit, 60, {}, en13), "S3").verdict == CheckVerdict::fail);
   Sign glow = sign_of(1, 0.1);
   glow.lighting = SignLighting::photoluminescent;
   CHECK(of(checks_of_sign(scene, glow, 0, {}, en13), "S1").verdict == CheckVerdict::not_assessed);
+}
+
+TEST_CASE("a red EXIT is judged by NFPA 101, and by EN 1838 its colours fail by name",
+          "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  Sign exit = sign_of(0, 0);
+  exit.colours = {
+      {.name = "red", .drawn = {0x9B, 0x24, 0x23}, .mains_cd_m2 = 60, .emergency_cd_m2 = 40},
+      {.name = "white", .drawn = {0xEC, 0xEC, 0xE7}}};
+  exit.letters = SignLetters{0.1524, 0.01905};
+  const auto american = checks_of_sign(scene, exit, 0, {}, nfpa);
+  CHECK(of(american, "N7").verdict == CheckVerdict::pass);
+  CHECK(of(american, "N7s").verdict == CheckVerdict::pass);
+  CHECK_FALSE(has(american, "S8c"));
+  const auto european = checks_of_sign(scene, exit, 0, {}, en24);
+  const Check& colours = of(european, "S8c");
+  CHECK(colours.verdict == CheckVerdict::fail);
+  CHECK(colours.reasons == Remarks{remark(RemarkId::other_colours, "red, white")});
+  for (const char* rule : {"S1", "S3"}) {
+    CHECK(of(european, rule).verdict == CheckVerdict::not_assessed);
+    CHECK(of(european, rule).reasons == colours.reasons);
+  }
+  CHECK_FALSE(has(checks_of_sign(scene, sign_of(100, 12), 0, {}, en24), "S8c"));
+}
+
+TEST_CASE("green and white count as such by any name and with other colours beside them",
+          "[emergency][rules]") {
+  Sign exit = sign_of(100, 12);
+  exit.colours[0].name = "blanc";
+  exit.colours[1].name = "vert";
+  exit.colours.push_back({.name = "black", .drawn = {0x2B, 0x2B, 0x2C}});
+  const auto checks = checks_of_sign(corridor(), exit, 0, {}, en24);
+  CHECK_FALSE(has(checks, "S8c"));
+  CHECK(*of(checks, "S1").value == 12);
+  CHECK(*of(checks, "S3").value == Approx(100 / 12.0));
 }
 
 TEST_CASE("a luminaire on another storey does not count as near, and the check names it",

@@ -12,6 +12,8 @@ using namespace luxodus;
 
 namespace {
 
+constexpr ColourIndex white_at = 0, green_at = 1;
+
 /// 0.4 m by 0.2 m in the xz plane at the origin, facing +y (so x of the sign is -x).
 Sign facing_y() {
   Sign sign;
@@ -19,8 +21,7 @@ Sign facing_y() {
   sign.width_m = 0.4;
   sign.height_m = 0.2;
   sign.smallest_detail_m = 0.02;
-  sign.mains = {500, 50};
-  sign.emergency = {100, 10};
+  sign.colours = white_and_green({500, 50}, {100, 10});
   return sign;
 }
 
@@ -138,13 +139,13 @@ TEST_CASE(
     "[emergency][luminance]") {
   Sign sign = facing_y();
   const auto white = [&](Operation operation, double seconds = 0) {
-    return sign_luminance(sign, SignColour::white, operation, seconds, 1.0);
+    return sign_luminance(sign, white_at, operation, seconds, 1.0);
   };
   CHECK(white(Operation::mains) == 500);
   CHECK(white(Operation::emergency) == 100);
   CHECK(white(Operation::dark) == 0);
-  CHECK(sign_luminance(sign, SignColour::green, Operation::emergency, 0, 1) == 10);
-  CHECK(sign_luminance(sign, SignColour::other, Operation::mains, 0, 1) == 0);
+  CHECK(sign_luminance(sign, green_at, Operation::emergency, 0, 1) == 10);
+  CHECK(sign_luminance(sign, other_colour, Operation::mains, 0, 1) == 0);
 
   sign.decay = decay_like_1_over_t;
   CHECK(white(Operation::emergency, 600) == 100);  // lit from within: the decay table is not used
@@ -162,7 +163,7 @@ TEST_CASE(
     "[emergency][luminance]") {
   Sign sign = facing_y();
   const auto white = [&](double cosine) {
-    return sign_luminance(sign, SignColour::white, Operation::mains, 0, cosine);
+    return sign_luminance(sign, white_at, Operation::mains, 0, cosine);
   };
   CHECK(white(0.3) == 500);
   CHECK(white(0.0) == 0);
@@ -174,12 +175,12 @@ TEST_CASE(
 TEST_CASE("a face's flux is the integral of its luminance over area and half space",
           "[emergency][luminance]") {
   Sign sign = facing_y();
-  sign.face = uniform_face(SignColour::white, 0.4, 0.2, 8).value();
+  sign.face = uniform_face(white_at, 0.4, 0.2, 8).value();
   // Half of the face green.
-  for (size_t i = 0; i < sign.face.colour.size() / 2; ++i) sign.face.colour[i] = SignColour::green;
+  for (size_t i = 0; i < sign.face.colour.size() / 2; ++i) sign.face.colour[i] = green_at;
   for (double n : {0.0, 0.5, 1.0, 3.0}) {
     sign.angular_exponent = n;
-    for (SignColour colour : {SignColour::white, SignColour::green}) {
+    for (const ColourIndex colour : {white_at, green_at}) {
       // Midpoint rule over the polar angle; 4000 steps leave an error under 1e-6.
       double flux_lm = 0;
       const int steps = 4000;

@@ -89,7 +89,7 @@ TEST_CASE("a saved variant is the building as shown", "[view]") {
   const SceneDescription variant = scene_of(folder.write("turned.toml", text));
   CHECK(variant.signs[0].frame.origin == glm::dvec3(0.1, 2, 2));
   CHECK(variant.signs[0].frame.axes[2].x == Approx(1));
-  CHECK(variant.signs[0].mains.white_cd_m2 == 1000);
+  CHECK(variant.signs[0].colours[0].mains_cd_m2 == 1000);
   CHECK(variant.emitters[0].mains_flux == 500);
   CHECK(variant.emitters[0].frame.origin == scene.emitters[0].frame.origin);
   REQUIRE(variant.scenarios.size() == 2);
@@ -121,7 +121,7 @@ TEST_CASE("an addition is a copy of the original in the file, at its own place",
   CHECK(now->signs[1].name == "exit copy");
   CHECK(now->signs[1].group == group_of_sign("exit copy"));
   CHECK(now->signs[1].frame.origin == glm::dvec3(0.1, 2, 2));
-  CHECK(now->signs[1].mains.white_cd_m2 == scene.signs[0].mains.white_cd_m2);
+  CHECK(now->signs[1].colours[0].mains_cd_m2 == scene.signs[0].colours[0].mains_cd_m2);
   REQUIRE(now->emitters.size() == 2);
   CHECK(now->emitters[1].frame.origin == glm::dvec3(1, 1, 2.9));
   CHECK(now->emitters[1].frame.axes == scene.emitters[0].frame.axes);
@@ -142,7 +142,7 @@ TEST_CASE("a saved variant contains the additions, and compiles to the same buil
   CHECK(variant.emitters[0].mains_flux == 500);
   CHECK(variant.emitters[1].mains_flux == 250);  // a copy of the file's own luminaire, not of the
                                                  // dimmed one
-  CHECK(variant.signs[1].mains.white_cd_m2 == 1000);
+  CHECK(variant.signs[1].colours[0].mains_cd_m2 == 1000);
   const auto live = compile_live(scene, edits), fresh = compile_live(variant, {});
   REQUIRE(live.ok());
   REQUIRE(fresh.ok());
@@ -216,7 +216,7 @@ TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of t
   const auto compiled = compile_live(scene, {});
   REQUIRE(compiled.ok());
   CHECK(compiled.value()->groups[0].luminous_flux_lm == Approx(100));
-  CHECK(compiled.value()->signs[0].white_cd_m2 == Approx(0.8 * 100));
+  CHECK(compiled.value()->signs[0].colours[0].luminance_cd_m2 == Approx(0.8 * 100));
   const auto after = [&](double seconds) {
     return shares_after(scene, Operation::emergency, seconds);
   };

@@ -139,7 +139,7 @@ Sign small_sign(const std::string& name) {
   out.frame.origin = {3, 2, 1};
   out.width_m = 0.4;
   out.height_m = 0.2;
-  out.face = {2, 1, {SignColour::white, SignColour::green}, {}, SignColour::white};
+  out.face = {2, 1, {0, 1}, {}};
   return out;
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("an added sign changes the triangles, and light of before comes with t
   const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
   Sign exit = small_sign("exit");
-  exit.mains = {100, 10};
+  exit.colours = white_and_green({100, 10});
   scene->signs.push_back(exit);
   Observer there;
   there.name = "there";
@@ -321,7 +321,7 @@ TEST_CASE(
   scene->emitters[0].onset = {{0, 0}, {10, 1}};
   Sign glow = small_sign("glow");
   glow.lighting = SignLighting::photoluminescent;
-  glow.emergency = {1, 0.1};
+  glow.colours = white_and_green({0, 0}, {1, 0.1});
   glow.decay = {{0, 1}, {10, 0}};
   scene->signs.push_back(glow);
   scene->scenarios.resize(2);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "actors/judge/design/layout_groups.hpp"
+#include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/transport/compile.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
 #include "tests/unit/actors/judge/design/smoke_corridor.hpp"
@@ -37,10 +38,7 @@ std::vector<JudgedLayout> three_layouts(const std::shared_ptr<const SceneDescrip
                                 corridor_layout(scene, "A+", {3, 8, 13})};
   out.back().sign_factor = brighter_signs;
   auto bright = std::make_shared<SceneDescription>(*out.back().layout.variant);
-  for (SignState* state : {&bright->signs.front().mains, &bright->signs.front().emergency}) {
-    state->white_cd_m2 *= brighter_signs;
-    state->green_cd_m2 *= brighter_signs;
-  }
+  scale_luminances(bright->signs.front(), brighter_signs);
   out.back().layout.variant = bright;
   return out;
 }

@@ -433,7 +433,7 @@ emergency_green = 30
 )");
   REQUIRE(scene->design->sign_types.size() == 1);
   const SceneDescription switched = as_switched(*scene, scene->scenarios.front());
-  CHECK(switched.design->sign_types[0].sign.emergency.white_cd_m2 == Approx(100));
+  CHECK(switched.design->sign_types[0].sign.colours[0].emergency_cd_m2 == Approx(100));
 }
 
 TEST_CASE("an externally lit sign gets a luminaire", "[design][signs]") {

@@ -195,7 +195,7 @@ TEST_CASE("in a smoky corridor alternatives pass the rules and brighter signs ar
     REQUIRE(written->signs.size() == one.layout.variant->signs.size());
     for (size_t i = 0; i < written->signs.size(); ++i) {
       const Sign &there = written->signs[i], &judged = one.layout.variant->signs[i];
-      CHECK(there.emergency.white_cd_m2 == Approx(judged.emergency.white_cd_m2));
+      CHECK(there.colours[0].emergency_cd_m2 == Approx(judged.colours[0].emergency_cd_m2));
       CHECK(glm::length(there.frame.origin - judged.frame.origin) < 1e-6);
     }
   }

@@ -26,7 +26,8 @@ SightRecord sight() {
   out.reason = remark(RemarkId::irritant_smoke);
   out.from_gaze_deg = std::nan("");
   out.line_of_sight.visible_within_m = std::nan("");
-  out.seen = {true, look(), 0.25, {8, true}, {9, false}, {}};
+  out.seen = {true, look(), 0.25, {8, true}, {9, false}, {}, {}};
+  out.seen->other_eyes = {{"protan", SightVerdict::invisible, {}, {0.5, 0.25}}};
   out.seen->other_light = {false, SightVerdict::legible, {}, look()};
   return out;
 }
@@ -89,7 +90,7 @@ AssessmentRecord full() {
   a.state.remarks = {remark(RemarkId::young_eyes, 20)};
   a.verdict = {"first", "no check made fails", {1, 0, 0, 0}};
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
-  a.people = {40, 0.5, true};
+  a.people = {40, 0.5, true, {"protan"}};
   a.method = {7, 1000, 0.5};
   a.sight_counts = {{"visible but not legible", 1}};
   a.checks = {check()};
@@ -109,7 +110,9 @@ AssessmentRecord full() {
   SignRecord& exit = a.signs.emplace_back();
   exit.name = "exit";
   exit.ifc_guid = "S1";
-  exit.face = {500, 50, 400, 40};
+  exit.legend = "red";
+  exit.ground = "white";
+  exit.colours = {{"red", 500, 400}, {"white", {}, {}}};
   a.places.routes = {{"way", {{0, 0, 0}, {4, 0, 0}}, 2}};
   a.places.areas = {{"hall", true, {{0, 0}, {4, 0}, {4, 4}}, 0, "R1", 500}};
   a.places.emphasis = {{"door", "exit door", {4, 0, 0}}};
@@ -175,6 +178,13 @@ TEST_CASE("keys, forms and their order in assessment.json stay as they are", "[j
   CHECK(text_at(json, "sights/0/angle_from_gaze") == R"({"value":null,"unit":"deg"})");
   CHECK(text_at(json, "sights/0/legend") == R"({"value":2.0,"standard_error":0.5,"unit":"cd/m2"})");
   CHECK(text_at(json, "sights/0/other_light/light") == R"("aged")");
+  CHECK(text_at(json, "sights/0/other_eyes/0") ==
+        R"({"eyes":"protan","verdict":"invisible",)"
+        R"("reading_level":{"value":0.5,"standard_error":0.25,"unit":"1"}})");
+  CHECK(text_at(json, "signs/0/colours/0") ==
+        R"({"name":"red","mains":{"value":500.0,"unit":"cd/m2"},)"
+        R"("emergency":{"value":400.0,"unit":"cd/m2"}})");
+  CHECK(text_at(json, "signs/0/colours/1") == R"({"name":"white"})");
   CHECK(text_at(json, "over_time/routes/0/guided") == R"(["gg","gu"])");
   CHECK(text_at(json, "over_time/routes/0/time") ==
         R"({"until":{"value":0.0,"unit":"s"},"lost_by":{"value":30.0,"unit":"s"},)"
@@ -214,8 +224,8 @@ TEST_CASE("an assessment.json that is of another format or inconsistent is refus
     const auto read = assessment_of(json);
     return read ? std::string() : read.problem().what;
   };
-  CHECK(with("", "format", "luxodus assessment 1") ==
-        "its \"format\" is not \"luxodus assessment 2\"");
+  CHECK(with("", "format", "luxodus assessment 2") ==
+        "its \"format\" is not \"luxodus assessment 3\"");
   CHECK(with("state/remarks/0", "id", "of_nobody").find("state.remarks[0]: ") == 0);
   CHECK(with("checks/0", "verdict", "maybe") == "checks[0].verdict is \"maybe\": unknown");
   CHECK(with("over_time/routes/0", "guided", Json::array({"gg", "gx"})) ==

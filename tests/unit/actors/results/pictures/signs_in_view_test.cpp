@@ -90,15 +90,17 @@ TEST_CASE("pixels of a sign are found where it is seen, and not where it is hidd
       signs_in_view(run->scene(), run->scene().description->cameras[0], view.traced.noisy);
   REQUIRE(signs.size() == 2);
   CHECK(run->scene().description->signs[signs[0].sign].name == "seen");
-  const auto count = [](const SignInView& sign) { return sign.white.size() + sign.green.size(); };
+  const auto count = [](const SignInView& sign) {
+    return sign.colours[0].size() + sign.colours[1].size();
+  };
   // 0.4 m by 0.2 m with 35 pixels a metre: 14 by 7, less pixels of both colours.
   CHECK(count(signs[0]) > 45);
   CHECK(count(signs[0]) < 14 * 7);
   CHECK(count(signs[1]) > 10);
   CHECK(10 * count(signs[1]) < 7 * count(signs[0]));
   // Their own light and what they reflect.
-  CHECK(mean_luminance(view.shown(), signs[0].white) == Approx(200).epsilon(0.3));
-  CHECK(brightest_face(view.shown(), signs) >= mean_luminance(view.shown(), signs[0].white));
+  CHECK(mean_luminance(view.shown(), signs[0].colours[0]) == Approx(200).epsilon(0.3));
+  CHECK(brightest_face(view.shown(), signs) >= mean_luminance(view.shown(), signs[0].colours[0]));
 }
 
 TEST_CASE("a sign's white is shown brighter than its green in clear air, smoke and the dark",
@@ -121,20 +123,20 @@ albedo = 0.6
       const auto signs = signs_in_view(run->scene(), camera, view.traced.noisy);
       REQUIRE(!signs.empty());
       for (const SignInView& sign : signs) {
-        if (sign.white.empty() || sign.green.empty()) continue;
-        const double ratio =
-            mean_luminance(view.shown(), sign.white) / mean_luminance(view.shown(), sign.green);
+        if (sign.colours[0].empty() || sign.colours[1].empty()) continue;
+        const double ratio = mean_luminance(view.shown(), sign.colours[0]) /
+                             mean_luminance(view.shown(), sign.colours[1]);
         INFO(drawing << ", lamp of " << lamp << " lm, white of " << white << " cd/m2, ratio "
                      << ratio);
         REQUIRE(ratio > 1.2);
         const PngImage plain = shown_image(false, *run, camera, view);
-        CHECK(shown_luminance(plain, sign.white) / shown_luminance(plain, sign.green) >=
+        CHECK(shown_luminance(plain, sign.colours[0]) / shown_luminance(plain, sign.colours[1]) >=
               std::pow(ratio, 0.4));
         const PngImage human = shown_image(true, *run, camera, view);
-        CHECK(shown_luminance(human, sign.white) > shown_luminance(human, sign.green));
+        CHECK(shown_luminance(human, sign.colours[0]) > shown_luminance(human, sign.colours[1]));
       }
       const PngImage plain = shown_image(false, *run, camera, view);
-      CHECK(shown_luminance(plain, signs[0].white) < 0.85);
+      CHECK(shown_luminance(plain, signs[0].colours[0]) < 0.85);
     }
 }
 
@@ -145,7 +147,7 @@ TEST_CASE("pictures of equal exposure show equal luminances alike", "[display][s
   ShownView in_light = view_of(*bright, 8), in_dark = view_of(*dark, 8);
   const auto signs = signs_in_view(bright->scene(), camera, in_light.traced.noisy);
   const auto shown = [&](const LocalRun& run, const ShownView& view) {
-    return shown_luminance(shown_image(false, run, camera, view), signs.front().white);
+    return shown_luminance(shown_image(false, run, camera, view), signs.front().colours[0]);
   };
   const Exposure own = shown_exposure(*bright, camera, in_light);
   CHECK(own.sign_cd_m2 == Approx(500).epsilon(0.4));

@@ -11,6 +11,7 @@ TEST_CASE("routes, areas, points of emphasis and people are read", "[format][sce
   const auto s = good(f, R"(
 [assessment]
 age_years = 70
+other_eyes = ["23", "protan", "protan 75"]
 eye_heights_m = [1.5]
 spacing_m = 0.5
 smoke_expected = false
@@ -35,6 +36,12 @@ position = [1, 2, 1]
 facing = [0, -2, 0]
 )");
   CHECK(s.assessment.age_years == 70);
+  REQUIRE(s.assessment.other_eyes.size() == 3);
+  CHECK(s.assessment.other_eyes[0].age_years == 23);
+  CHECK_FALSE(s.assessment.other_eyes[0].protan);
+  CHECK(s.assessment.other_eyes[1].protan);
+  CHECK_FALSE(s.assessment.other_eyes[1].age_years);
+  CHECK(s.assessment.other_eyes[2].age_years == 75);
   CHECK(s.assessment.eye_heights_m == std::vector<double>{1.5});
   CHECK(s.assessment.irritant_smoke == true);
   CHECK_FALSE(s.assessment.smoke_expected);
@@ -120,6 +127,9 @@ TEST_CASE("mistakes in routes and areas are reported with their lines", "[format
             .find("less than 1 cm apart") != std::string::npos);
   CHECK(told("[[open_area]]\nname = \"a\"\noutline = [[0, 0], [1, 1], [1, 0], [0, 1]]\n")
             .find("outline") != std::string::npos);
+  for (const char* wrong : {"90", "deutan", "protan 90", "65 years"})
+    CHECK(told("[assessment]\nother_eyes = [\"" + std::string(wrong) + "\"]\n")
+              .find("'other_eyes' has") != std::string::npos);
   CHECK(told("[assessment]\nage_years = 90\n").find("age_years") != std::string::npos);
   CHECK(told("[assessment]\neye_heights_m = []\n").find("names no height") != std::string::npos);
   CHECK(told("[[emphasis]]\nname = \"a\"\nkind = \"sofa\"\nposition = [0, 0, 0]\n").find("kind") !=
@@ -189,7 +199,7 @@ TEST_CASE("a change adds a copy under another name, and leaves the original", "[
   CHECK(s.signs[1].name == "way out");
   CHECK(s.signs[1].frame.origin == glm::dvec3(3, 0, 2));
   CHECK(s.signs[1].frame.axes[2].y == Approx(1));
-  CHECK(s.signs[1].mains.white_cd_m2 == 500);
+  CHECK(s.signs[1].colours[0].mains_cd_m2 == 500);
   CHECK(s.signs[2].frame.axes == s.signs[1].frame.axes);  // as what it is a copy of stands by then
   REQUIRE(s.emitters.size() == 2);
   CHECK(s.emitters[0].mains_flux == 10);

@@ -249,21 +249,100 @@ circuits = { signs = 0.5 }
 )");
   const Sign& exit = named(s.signs, "exit");
   CHECK(exit.smallest_detail_m == 0.02);
-  CHECK(exit.face.legend == SignColour::green);
+  CHECK(exit.face.legend == 1);
   CHECK(exit.face.width == 256);
   CHECK(exit.double_sided);
-  CHECK(exit.mains.white_cd_m2 == 500);
-  CHECK(exit.emergency.green_cd_m2 == 6);
+  CHECK(exit.colours[0].mains_cd_m2 == 500);
+  CHECK(exit.colours[1].emergency_cd_m2 == 6);
   CHECK(exit.angular_exponent == 0.5);
   CHECK(same(exit.frame.axes[2], {-1, 0, 0}));
   CHECK(same(exit.frame.axes[1], {0, 0, 1}));
-  CHECK(exit.green_shape.at(520) > exit.green_shape.at(650));
+  CHECK(exit.colours[1].shape.at(520) > exit.colours[1].shape.at(650));
   const Sign& glow = named(s.signs, "glow");
   CHECK(glow.lighting == SignLighting::photoluminescent);
   CHECK(glow.decay.size() == 3);
-  CHECK(glow.emergency.white_cd_m2 == 0.3);
+  CHECK(glow.colours[0].emergency_cd_m2 == 0.3);
   CHECK(named(s.signs, "board").lighting == SignLighting::external);
-  CHECK(named(s.signs, "board").white_reflectance.at(500) == 0.8);
+  CHECK(named(s.signs, "board").colours[0].reflectance.at(500) == 0.8);
+}
+
+TEST_CASE("a sign names its colours, and the safety colours bring their own drawing and paint",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[sign]]
+name = "exit"
+position = [5, 1, 2]
+facing = [-2, 0, 0]
+width = 0.32
+height = 0.2
+text = "EXIT"
+legend = "red"
+[[sign.colours]]
+name = "white"
+mains = 0
+emergency = 0
+[[sign.colours]]
+name = "red"
+mains = 60
+emergency = 40
+spectrum = "led red"
+[[sign]]
+name = "strip"
+position = [5, 1, 2]
+facing = [1, 0, 0]
+width = 0.6
+height = 0.3
+plain = "signal orange"
+smallest_detail = 0.05
+lighting = "external"
+[[sign.colours]]
+name = "signal orange"
+drawn = "#E75B12"
+reflectance = 0.3
+)");
+  const Sign& exit = named(s.signs, "exit");
+  REQUIRE(exit.colours.size() == 2);
+  CHECK(exit.face.legend == 1);
+  CHECK(exit.face.ground == 0);
+  CHECK(exit.colours[1].drawn == std::array<uint8_t, 3>{0x9B, 0x24, 0x23});
+  CHECK(exit.colours[1].emergency_cd_m2 == 40);
+  CHECK(exit.colours[1].shape.at(630) > 1e3 * exit.colours[1].shape.at(560));
+  CHECK(exit.colours[1].reflectance.at(650) > 3 * exit.colours[1].reflectance.at(520));
+  CHECK(exit.colours[0].shape.value == white_led_shape(4000).value);
+  const Sign& strip = named(s.signs, "strip");
+  REQUIRE(strip.colours.size() == 1);
+  CHECK(strip.face.legend == 0);
+  CHECK(strip.face.ground == other_colour);
+  CHECK(strip.colours[0].reflectance.at(500) == 0.3);
+}
+
+TEST_CASE("a type of signs has colours that its signs share", "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[sign_type]]
+name = "red exit"
+width = 0.32
+height = 0.2
+text = "EXIT"
+legend = "red"
+[[sign_type.colours]]
+name = "red"
+mains = 60
+emergency = 40
+[[sign_type.colours]]
+name = "white"
+mains = 250
+emergency = 200
+[[sign]]
+type = "red exit"
+name = "east"
+position = [5, 1, 2]
+facing = [-1, 0, 0]
+)");
+  REQUIRE(s.signs.at(0).colours.size() == 2);
+  CHECK(s.signs[0].colours[0].name == "red");
+  CHECK(s.signs[0].colours[1].mains_cd_m2 == 250);
 }
 
 TEST_CASE("what a sign's drawing leaves out is warned of, once for each file", "[format][scene]") {

@@ -253,6 +253,36 @@ TEST_CASE("signs with missing or contradictory keys are rejected", "[format][sce
   });
 }
 
+TEST_CASE("signs with missing, unknown or contradictory colours are rejected", "[format][scene]") {
+  const auto colour = [](const std::string& name, const std::string& more = "") {
+    return "[[sign.colours]]\nname = \"" + name + "\"\nmains = 9\nemergency = 9\n" + more;
+  };
+  const std::string exit = sign + "text = \"EXIT\"\n";
+  check({
+      {sign + lit + "plain = \"red\"\nsmallest_detail = 0.1\n", 11,
+       "the sign's colours are white, green; state others in [[sign.colours]]"},
+      {exit + colour("red") + colour("white"), 7,
+       "a text needs 'legend', the colour of its letters: of the colours red, white"},
+      {exit + "legend = \"blue\"\n" + colour("red") + colour("white"), 8,
+       "'legend' is \"blue\", and the sign's colours are red, white"},
+      {exit + "legend = \"red\"\nground = \"red\"\n" + colour("red") + colour("white"), 9,
+       "legend and ground have the same colour"},
+      {exit + "legend = \"red\"\nmains_white = 5\n" + colour("red") + colour("white"), 9,
+       "'mains_white' belongs to a sign of white and green without [[sign.colours]]"},
+      {exit + "legend = \"red\"\n" + colour("red") + colour("pink"), 14, "needs 'drawn'"},
+      {exit + "legend = \"red\"\n" + colour("red") + colour("pink", "drawn = \"rose\"\n"), 17,
+       "'drawn' is a colour like"},
+      {exit + "legend = \"red\"\n" + colour("red") + colour("pink", "drawn = \"#9A2422\"\n"), 17,
+       "drawn so alike"},
+      {exit + "legend = \"red\"\n" + colour("red") + colour("red"), 14, "is there twice"},
+      {exit + "legend = \"red\"\n" + colour("red") + colour("surround", "drawn = \"#112233\"\n"),
+       14, "cannot name a colour"},
+      {exit + "legend = \"red\"\n" + colour("red") +
+           "[[sign.colours]]\nname = \"white\"\nemergency = 9\n",
+       13, "the key 'mains' is missing"},
+  });
+}
+
 TEST_CASE(
     "a length of a sign beyond its face is rejected with value, limit and the value of mm in m",
     "[format][scene]") {

@@ -44,8 +44,8 @@ TEST_CASE("a sign has the keys of its type", "[format][types]") {
            "[[sign]]\nname = \"s\"\ntype = \"exit\"\nposition = [0, 0, 2]\nfacing = [1, 0, 0]\n"
            "width = 0.3\nheight = 0.15\nemergency_white = 40\n");
   REQUIRE(scene.signs.size() == 1);
-  CHECK(scene.signs[0].mains.white_cd_m2 == 500);
-  CHECK(scene.signs[0].emergency.white_cd_m2 == 40);
+  CHECK(scene.signs[0].colours[0].mains_cd_m2 == 500);
+  CHECK(scene.signs[0].colours[0].emergency_cd_m2 == 40);
 }
 
 TEST_CASE("an unknown type, or one with keys that types must not have, is reported",

@@ -11,6 +11,8 @@ using namespace luxodus;
 
 namespace {
 
+constexpr ColourIndex white_at = 0, green_at = 1;
+
 /// A green face of 80 by 40 texels of 1 cm.
 Sign green_sign() {
   Sign sign;
@@ -18,12 +20,11 @@ Sign green_sign() {
   sign.height_m = 0.4;
   sign.face.width = 80;
   sign.face.height = 40;
-  sign.face.colour.assign(80 * 40, SignColour::green);
+  sign.face.colour.assign(80 * 40, green_at);
   return sign;
 }
 
-void fill(Sign& sign, int left, int top, int across, int down,
-          SignColour colour = SignColour::white) {
+void fill(Sign& sign, int left, int top, int across, int down, ColourIndex colour = white_at) {
   for (int y = top; y < top + down; ++y)
     for (int x = left; x < left + across; ++x)
       sign.face.colour[static_cast<size_t>(y * sign.face.width + x)] = colour;
@@ -70,15 +71,15 @@ TEST_CASE("gaps that a legend encloses are parts, too, and the ground is none", 
   Sign sign = green_sign();
   CHECK_FALSE(legend_size(sign, 0.05));
   fill(sign, 10, 10, 30, 20);
-  fill(sign, 24, 12, 2, 16, SignColour::green);
+  fill(sign, 24, 12, 2, 16, green_at);
   const double enclosed = size_of(sign, 0.05).finer_share;
   CHECK(enclosed > 0);
-  fill(sign, 24, 5, 2, 30, SignColour::green);  // now it is connected with the ground
+  fill(sign, 24, 5, 2, 30, green_at);  // now it is connected with the ground
   CHECK(size_of(sign, 0.05).finer_share < enclosed);
   CHECK_FALSE(legend_size(
       [] {
         Sign plain = green_sign();
-        plain.face = uniform_face(SignColour::white, 0.8, 0.4, 80).value();
+        plain.face = uniform_face(white_at, 0.8, 0.4, 80).value();
         return plain;
       }(),
       0.05));

@@ -50,7 +50,7 @@ TEST_CASE("lights run on the mains until they fail, then run up, and end with th
   CHECK(lamp_lm(good_at(f, text, 76)) == 0);  // 0.01 h after the failure
   const auto green = [&](double at_s) {
     const SceneDescription scene = good_at(f, text, at_s);
-    return scenario_luminance(scene.signs.at(0), SignColour::green, scene.scenarios.at(0));
+    return scenario_luminance(scene.signs.at(0), 1, scene.scenarios.at(0));
   };
   CHECK(green(0) == 50);
   CHECK(green(40) == 6);

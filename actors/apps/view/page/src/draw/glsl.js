@@ -60,18 +60,21 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// The texture holds the shares of white and green in a texel: seen from afar, it gives their mean.
+// The textures hold the shares of each colour in a texel: seen from afar, they give their mean.
 export const signFragment = `${common}
 in vec2 at;
 in float height;
-uniform sampler2D shares;
-uniform vec3 white, green;
+uniform sampler2D shares, moreShares;
+uniform vec3 colours[8];
 uniform float cut, above;
 out vec4 colour;
 void main() {
   if (height > cut || height < above) discard;
-  vec2 share = texture(shares, at).rg;
-  colour = vec4(clamp(share.r * white + share.g * green, 0.0, ${brightest}), ${signMark});
+  vec4 share = texture(shares, at), more = texture(moreShares, at);
+  vec3 light = share.r * colours[0] + share.g * colours[1] + share.b * colours[2] +
+    share.a * colours[3] + more.r * colours[4] + more.g * colours[5] + more.b * colours[6] +
+    more.a * colours[7];
+  colour = vec4(clamp(light, 0.0, ${brightest}), ${signMark});
 }`;
 
 export const screenVertex = `

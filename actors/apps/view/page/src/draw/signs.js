@@ -7,22 +7,30 @@ import { signFragment, signVertex } from './glsl.js';
 import { drawnAfter } from './surfaces.js';
 
 const beforeWall_m = 0.004;
-const marks = { white: 0, green: 1 };
+/** Colours that one texture holds the shares of, in its four channels. */
+const perTexture = 4;
 
-function sharesOf({ texels, columns, rows }) {
-  const data = new Uint8Array(4 * columns * rows);
+/** The shares of four colours, from `first` on, in each texel. */
+function sharesOf({ texels, columns, rows }, first) {
+  const data = new Uint8Array(perTexture * columns * rows);
   for (let row = 0; row < rows; ++row)
     for (let column = 0; column < columns; ++column) {
-      const to = 4 * (row * columns + column);
-      const mark = texels[(rows - 1 - row) * columns + column];
-      data[to] = mark === marks.white ? 255 : 0;
-      data[to + 1] = mark === marks.green ? 255 : 0;
+      const channel = texels[(rows - 1 - row) * columns + column] - first;
+      if (channel >= 0 && channel < perTexture)
+        data[perTexture * (row * columns + column) + channel] = 255;
     }
   const texture = new THREE.DataTexture(data, columns, rows);
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipmapLinearFilter;
   texture.generateMipmaps = true;
   texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** A texture without shares, for a sign of four colours or fewer. */
+function noShares() {
+  const texture = new THREE.DataTexture(new Uint8Array(perTexture), 1, 1);
   texture.needsUpdate = true;
   return texture;
 }
@@ -60,6 +68,7 @@ export class Signs {
     for (const mesh of this.object.children) {
       mesh.geometry.dispose();
       mesh.material.uniforms.shares.value.dispose();
+      mesh.material.uniforms.moreShares.value.dispose();
       mesh.material.dispose();
     }
     this.object.clear();
@@ -73,9 +82,11 @@ export class Signs {
       vertexShader: signVertex,
       fragmentShader: signFragment,
       uniforms: {
-        shares: { value: sharesOf(sign) },
-        white: { value: new THREE.Vector3() },
-        green: { value: new THREE.Vector3() },
+        shares: { value: sharesOf(sign, 0) },
+        moreShares: {
+          value: sign.colours.length > perTexture ? sharesOf(sign, perTexture) : noShares(),
+        },
+        colours: { value: Array.from({ length: 2 * perTexture }, () => new THREE.Vector3()) },
         ...this.shared,
       },
     });
@@ -91,8 +102,8 @@ export class Signs {
   shine(factorOf) {
     for (const { material, userData } of this.object.children) {
       const factor = factorOf(userData.sign.group);
-      material.uniforms.white.value.fromArray(userData.sign.white).multiplyScalar(factor);
-      material.uniforms.green.value.fromArray(userData.sign.green).multiplyScalar(factor);
+      userData.sign.colours.forEach((colour, i) =>
+        material.uniforms.colours.value[i].fromArray(colour).multiplyScalar(factor));
     }
   }
 

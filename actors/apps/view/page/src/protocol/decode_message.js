@@ -8,6 +8,7 @@ export const limits = {
   characters: 2048,
   metres: 1e6,
   texels: 1 << 20,
+  signColours: 8,
   pngCharacters: 1 << 23,
   flames: 8,
   flameCells: 64,
@@ -84,6 +85,12 @@ function pngOf(value, path) {
   return value;
 }
 
+function coloursOf(value, path) {
+  const colours = list(value, path, colour);
+  if (colours.length > limits.signColours) fail(path, 'too many colours');
+  return colours;
+}
+
 function sign(value, path) {
   const s = record(value, path);
   const columns = whole(s.columns, `${path}.columns`, 1, 4096);
@@ -100,8 +107,7 @@ function sign(value, path) {
     columns,
     rows,
     texels: texelsOf(s.texels, `${path}.texels`, columns, rows),
-    white: colour(s.white, `${path}.white`),
-    green: colour(s.green, `${path}.green`),
+    colours: coloursOf(s.colours, `${path}.colours`),
     group: textOr(s.group, `${path}.group`, ''),
     added: s.added === true,
   };
