@@ -211,7 +211,7 @@ std::string experiments_page(const std::vector<ExperimentResult>& results,
   out += "![Optical depth at the threshold: the program over people](experiments.svg)\n\n";
   out += failing_part(results);
   out += experiments_findings;
-  out += "## The experiments\n\n" + std::string(experiments_legend) + "\n";
+  out += "## The experiments\n" + std::string(experiments_legend);
   for (const ExperimentResult& result : results) out += experiment_section(result);
   out += experiments_objections;
   out += "\n" + filled(fmt::format(

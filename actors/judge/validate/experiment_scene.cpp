@@ -28,14 +28,17 @@ double height_of(const ExperimentTarget& target) {
   return target.height_m > 0 ? target.height_m : target.width_m;
 }
 
+/// The colours of a target's face, and their places in it.
+constexpr ColourIndex target_colour = 0, ground_colour = 1;
+
 bool in_target(TargetShape shape, double x, double y, double half_width, double half_height) {
   if (std::abs(x) > half_width || std::abs(y) > half_height) return false;
   if (shape == TargetShape::rectangle) return true;
   if (shape == TargetShape::disc) return std::hypot(x, y) <= half_width;
   const double unit = half_width / ring_outer;
   const double r = std::hypot(x, y) / unit;
-  const bool gap = x > 0 && std::abs(y) < ring_half_gap * unit;
-  return r <= ring_outer && r >= ring_inner && !gap;
+  const bool in_gap = x > 0 && std::abs(y) < ring_half_gap * unit;
+  return r <= ring_outer && r >= ring_inner && !in_gap;
 }
 
 /// A face of drawn_texels along each edge, whose edges are face_per_target times the target's.
@@ -47,9 +50,8 @@ SignFace drawn_face(const ExperimentTarget& target) {
     const double y = ((row + 0.5) / face.height - 0.5) * face_per_target * height;
     for (int column = 0; column < face.width; ++column) {
       const double x = ((column + 0.5) / face.width - 0.5) * face_per_target * width;
-      face.colour.push_back(in_target(target.shape, x, y, width / 2, height / 2)
-                                ? SignColour::white
-                                : SignColour::green);
+      face.colour.push_back(in_target(target.shape, x, y, width / 2, height / 2) ? target_colour
+                                                                                 : ground_colour);
     }
   }
   return face;
@@ -77,8 +79,9 @@ void write_text(const ExperimentTarget& target, Sign& sign) {
   LUX_CHECK(lettering.ok(), "the text of an experiment cannot be written");
   sign.width_m = lettering->width_m + target.width_m;
   sign.height_m = 2 * target.width_m;
-  auto face = face_from_text(target.text, sign.width_m, sign.height_m, target.width_m,
-                             target.stroke_m, spacing, SignColour::white, 4 * drawn_texels);
+  auto face =
+      face_from_text(target.text, sign.width_m, sign.height_m, target.width_m, target.stroke_m,
+                     spacing, target_colour, ground_colour, 4 * drawn_texels);
   LUX_CHECK(face.ok(), "the text of an experiment cannot be drawn");
   sign.face = std::move(face).value();
 }
@@ -95,11 +98,12 @@ Sign sign_of(const ExperimentTarget& target, double distance_m) {
     sign.height_m = face_per_target * height_of(target);
     sign.face = drawn_face(target);
   }
-  sign.face.legend = SignColour::white;
+  sign.face.legend = target_colour;
+  sign.face.ground = ground_colour;
+  sign.colours = white_and_green({target.luminance_cd_m2, target.ground_cd_m2});
+  sign.colours[target_colour].reflectance = Spectrum::constant(target.reflectance);
+  sign.colours[ground_colour].reflectance = Spectrum::constant(target.ground_reflectance);
   sign.smallest_detail_m = detail_of(target);
-  sign.mains = {target.luminance_cd_m2, target.ground_cd_m2};
-  sign.white_reflectance = Spectrum::constant(target.reflectance);
-  sign.green_reflectance = Spectrum::constant(target.ground_reflectance);
   return sign;
 }
 

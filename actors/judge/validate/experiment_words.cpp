@@ -4,8 +4,8 @@ namespace luxodus::light {
 
 const char* const experiments_opening = R"md(# Experiments with people
 
-`luxodus validate --experiments` holds the program's verdicts against experiments in which people saw
-or read signs in smoke, in dim light and in clear air. This page is what the command writes.
+`luxodus validate --experiments` holds the program's verdicts against experiments in which people
+saw or read signs in smoke, in dim light and in clear air. This page is what the command writes.
 
 ```sh
 build/release/luxodus validate --experiments             # all of them
@@ -36,13 +36,16 @@ Some were written after an earlier version of the program had been tried on some
 rule is kept or failing only if the value is two standard errors from its limit; otherwise it is not
 answered.
 
-| rule | what must hold |
-|---|---|
-| S, seen | The threshold at level 1 of the whole target is within 0.7 of the observed optical depth. The mean difference over all such thresholds is within 0.4. |
-| R, read | The threshold at level 7 of the detail is at most the observed one: nothing is promised that people did not read. The threshold at level 1 of the detail plus 0.5 is at least the observed one: nothing is denied that they read. Of an observed interval the lower end counts for the promise, the upper end for the denial. |
-| U, unsafe | In no trial is the verdict "legible" where the mean observer stops reading. |
-| O, order | The stated order holds. What is stated to be about equal differs by at most 0.7, and "much farther" is more than that. |
-| A, acuity | The level of a detail at the limit of acuity is 0.5 to 2. |
+- **S, seen.** The threshold at level 1 of the whole target is within 0.7 of the observed optical
+  depth. The mean difference over all such thresholds is within 0.4.
+- **R, read.** The threshold at level 7 of the detail is at most the observed one: nothing is
+  promised that people did not read. The threshold at level 1 of the detail plus 0.5 is at least the
+  observed one: nothing is denied that they read. Of an observed interval the lower end counts for
+  the promise, the upper end for the denial.
+- **U, unsafe.** In no trial is the verdict "legible" where the mean observer stops reading.
+- **O, order.** The stated order holds. What is stated to be about equal differs by at most 0.7, and
+  "much farther" is more than that.
+- **A, acuity.** The level of a detail at the limit of acuity is 0.5 to 2.
 
 Slopes, quotients and differences have limits of their own, which stand in the claims.
 
@@ -50,64 +53,72 @@ Slopes, quotients and differences have limits of their own, which stand in the c
 
 const char* const experiments_findings = R"md(## What the numbers say
 
-**Light and grey targets (T1, T2, T5, T6).** Seeing agrees in value and in slope. The program sees the
-disc of T1 farther by 0.2 in optical depth, a factor of 1.2 to 1.3 in luminance; the threshold contrast
-of T2 is the measured one. Darker smoke is seen through farther, as in T6. The placards of T5 keep the
-measured dependence on size, but the program wants 1.4 to 3.3 times the light that people needed.
+**Light and grey targets (T1, T2, T5, T6).** Seeing agrees in value and in slope. The program sees
+the disc of T1 farther by 0.2 in optical depth, a factor of 1.2 in luminance. The threshold contrast
+of T2 is the measured one. Darker smoke is seen through farther, as in T6. The placards of T5 keep
+the measured dependence on size, but the program wants 1.4 to 3.3 times the light that people
+needed.
 
-**Reading (T8, T12).** At 1 lx the program promises less than the one observer read: its threshold of
-reading is a factor of 6 in luminance below for two rings, and of 1.5 for the third. That third margin
-is thin: 0.43 in optical depth. T12 fails at 1 and 2 m: the program still reads the small letters at
-the lower end of the densities in the abstract, though not beyond their upper end. Which of these
-densities belongs to which sign, size and distance is not in the abstract, so that the lower end
-counts. At 1 m three times the size is read less far, not farther: the ground of 86 cd/m2 then fills
-the view, lights the smoke before the letters, and the eye adapts to it.
+**Reading (T8, T12).** At 1 lx the program promises less than the one observer read: by a factor of
+6 in luminance for two rings, and of 1.5 for the third, whose margin is thin. T12 fails at 1 and 2
+m: the program still reads the small letters at the lower end of the densities in the abstract,
+though not beyond their upper end. Which of these densities belongs to which sign, size and distance
+is not in the abstract, so the lower end counts. At 1 m three times the size is read less far, not
+farther: the ground of 86 cd/m2 then fills the view, lights the smoke before the letters, and the
+eye adapts to it.
 
-**The dark (T14 fails).** People saw pictograms as far at 1 to 2 lx as in the dark. The program gives
-the dark 1.5 to 2.2 more in optical depth, the most for the darkest sign. The second table of T14 says
-why: it is adaptation alone. In the dark the ground beside the sign has 0.008 to 0.04 cd/m2, which is
-light of the sign itself that the smoke scatters. At 1.5 lx it has 0.4 to 0.5 cd/m2. The threshold
-that Adrian's law takes from this falls from 0.006 to about 0.001 cd/m2, and the logarithm of that
-quotient is the difference found. The law holds for eyes that are fully adapted to what they look at,
-which takes half an hour in the dark. People who have just left a lit room, or look about in one with a
-few lamps, are adapted to more. So "visible" in the dark, and to a lesser degree "legible", promise
-more than people have. No floor under the luminance of adaptation was put in: its value would be
-fitted to this one abstract.
+**The dark (T14 fails).** People saw pictograms as far at 1 to 2 lx as in the dark. The program
+gives the dark 1.5 to 2.3 more in optical depth, the most for the darkest sign. The second table of
+T14 says why: it is adaptation alone. In the dark the ground beside the sign has 0.007 to 0.03
+cd/m2, which is light of the sign itself that the smoke scatters. At 1.5 lx it has 0.4 to 0.5 cd/m2.
+The difference that Adrian's law asks for falls from 0.006 to about 0.001 cd/m2, and the logarithm
+of that quotient is what was found. The law holds for eyes that are fully adapted to what they look
+at, which takes half an hour in the dark. People who have just left a lit room, or look about in one
+with a few lamps, are adapted to more. So "visible" in the dark, and to a lesser degree "legible",
+promise more than people have. No floor under the luminance of adaptation was put in: its value
+would be fitted to this one abstract.
 
 **Size in the dark (T16 fails).** A sign of 10 cm is lost where it was observed, at an optical depth
-of 13. One of 20 cm is seen only SEEN_MORE farther. Three terms make this, and the trials separate them:
+of 13. One of 20 cm is seen no farther: the difference is below 0.2 either way. The trials that are
+not judged separate the terms:
 
 - *Area (Ricco's law).* In smoke of albedo 0 the sign stands before darkness. There 20 cm are seen
-  GAIN_BLACK farther than 10 cm. Both are still within the range of partial summation: twice the edge
-  lowers the threshold by a factor of 3, not of 4.
-- *Halo.* In white smoke the sign lights the smoke, and the eye adapts to the halo around it. Four
-  times the area give about three times the luminance of the ground at the threshold. This takes back most of
-  the gain, and costs the small sign HALO_SMALL and the large one HALO_LARGE.
-- *Narrower scattering* (g = 0.85 instead of 0.6) does not change this: the gain is GAIN_NARROW.
+  1.05 farther than 10 cm: twice the edge lowers the threshold by a factor of 2.9. Complete
+  summation over the area would give a factor of 4.
+- *Halo.* In white smoke the sign lights the smoke, and the eye adapts to the halo around it. That
+  costs the small sign 2.4 and the large one 3.6, for four times the area scatter several times the
+  light. The halo takes back all that the area has gained.
+- *Narrower scattering* (g = 0.85 instead of 0.6) makes the halo denser: both signs are lost nearer,
+  by about 1, and the gain is again nothing.
 
-Size cannot help much more: before the same ground an endless target would gain 2.4 over 10 cm and 1.3
-over 20 cm. Beyond an optical depth of about 13 the halo is brighter than the sign before it. At 22.5
-what comes straight from a sign of 250 cd/m2 is 4e-8 cd/m2, a hundredth of what the dark-adapted eye
-sees of any size. No law of contrast can make that visible. Either people reported the glow of the smoke,
-which grows with area and keeps its direction, or 22.5 is the slope of a fitted line with an intercept,
-and not an optical depth at which the sign was seen. The source was read third hand and does not say.
-So nothing was changed in the program. Its verdict counts a silhouette, but not a glow without an edge.
+Nor could size help much: before the same ground an endless target would gain 2.4 over 10 cm. At an
+optical depth of 13 the halo is as bright as the sign before it. At 22.5 what comes straight from a
+sign of 250 cd/m2 is 4e-8 cd/m2, a twentieth of the threshold of an endless target before darkness.
+No law of contrast makes that visible. Either people reported the glow of the smoke, or 22.5 is the
+slope of a fitted line with an intercept, and not an optical depth at which the sign was seen. The
+source was read third hand and does not say. So nothing was changed in the program. Its verdict
+counts a silhouette, but no glow without an edge.
 
 **Clear air (T18, T20).** Levels at the limit of acuity are 0.7 to 1.1. EXIT is read no farther than
 people identify it with confidence, but its stroke is called seen up to 150 m, where they identified
-the word up to 90 m. Between the levels 1 and 7 lies a factor of 3 in distance; people need less.
+the word up to 90 m. Its polarity and luminances had to be assumed.
+
+Errors are those of chance, from the scatter of levels with other random numbers. They are largest
+in the dark, where few paths carry most of the light that is scattered beside the sign. The
+luminances of the ground there are known to a factor of 2 only.
 
 )md";
 
-const char* const experiments_legend = R"md(Thresholds carry their standard errors. "Above" and "below" an end of the searched interval mean that
-no threshold lies in it. The luminance factor is exp(predicted - observed), of the threshold of
+const char* const experiments_legend = R"md(
+Thresholds carry their standard errors. "Above" and "below" an end of the searched interval mean
+that no threshold lies in it. The luminance factor is exp(predicted - observed), of the threshold of
 reading where people read and else of that of seeing. Above 1 the program grants people more than
 they had; below 1 it asks for more light than they needed. The last column of the first table is the
 program's verdict at the observed threshold, or at the lower end of an observed interval.
 
 The second table says what limits the eye: the luminance of the ground around the target, which the
-eye is adapted to, with the light that the smoke scatters; the difference that is just seen; and what
-an endless target would gain before the same ground, in optical depth.
+eye is adapted to, with the light that the smoke scatters; the difference that is just seen; and
+what an endless target would gain before the same ground, in optical depth.
 
 )md";
 
@@ -121,17 +132,17 @@ const char* const experiments_objections = R"md(## What a lighting or fire scien
   quotients are tested besides values.
 - Where the illuminance was measured is open. In white smoke this is 0.3 in optical depth, in black
   smoke up to 2.7. The unit of luminance of T6 is disputed by a factor of pi, 1.14 in optical depth.
-- The share of scattering in the papers is a ratio to white smoke, not an albedo. Oil and filter paper
-  are not soot. Forward scattering and halos are assumed (g = 0.6). Smoke was uniform; real layers
-  are not.
+- The share of scattering in the papers is a ratio to white smoke, not an albedo. Oil and filter
+  paper are not soot. Forward scattering and halos are assumed (g = 0.6). Smoke was uniform; real
+  layers are not.
 - Most targets have the same angle, 31 arcmin. Only T5, T18 and T16 test size, and T16 disagrees.
 - Adaptation: people came from the light, and T14 shows no gain in the dark. The program's eye is
   adapted to what it looks at. If "visible" is unsafe anywhere, it is in the dark, and emergency
   lighting is there.
-- Known place, free eyes, no stress: in Jin's walk to an EXIT sign an unknown place cost a factor of 5
-  in contrast.
-- Colour: red and green at mesopic levels, and observers with protan vision. All comparisons here are
-  white and photopic.
+- Known place, free eyes, no stress: in Jin's walk to an EXIT sign an unknown place cost a factor of
+  5 in contrast.
+- Colour: red and green at mesopic levels, and observers with protan vision. All comparisons here
+  are white and photopic.
 
 ## What is not tested
 
@@ -139,20 +150,23 @@ const char* const experiments_objections = R"md(## What a lighting or fire scien
 - Colours of signs, and of light.
 - Signs in an unknown place, noticed or not; people who walk, who are under stress, or who have just
   left a bright room.
-- Irritation. The factor of Jin and Yamada (1985) is the program's own rule, so that a comparison with
-  their data would only show that it was typed correctly.
+- Irritation. The factor of Jin and Yamada (1985) is the program's own rule, so that a comparison
+  with their data would only show that it was typed correctly.
 - Layers and gradients of smoke; photoluminescent signs; oblique views; glare of lamps in sight.
 
 ## What was found and is not used
 
-| source | why |
-|---|---|
-| Jin 1972 (III): ten men walk to a lit EXIT sign | seen at optical depths of 4.6 to 10; luminance and size of the sign are not in what was read |
-| Jin and Yamada 1985: Landolt chart at 4 m, C = 6 | luminance of the chart is not in what was read; the factor of irritation is the program's own rule |
-| Collins, Dahir, Madrzykowski 1990, NISTIR 4399 | the abstract has no values in smoke: luminance matters most, then uniformity |
-| Tuomisaari 1997, VTT Publications 300; Fujii, Sano, Ohmiya 2014; Baek et al. 2022 | abstracts without thresholds |
-| Frantzich and Nilsson 2003; Fridolf et al. 2013 | walking speeds in tunnels, no thresholds |
-| Colomb et al. 2007: targets in a fog chamber against Adrian's model | the nearest precedent; only its abstract was read |
+- Jin 1972 (III): ten men walk to a lit EXIT sign: seen at optical depths of 4.6 to 10; luminance
+  and size of the sign are not in what was read.
+- Jin and Yamada 1985: Landolt chart at 4 m, C = 6: luminance of the chart is not in what was read;
+  the factor of irritation is the program's own rule.
+- Collins, Dahir, Madrzykowski 1990, NISTIR 4399: the abstract has no values in smoke: luminance
+  matters most, then uniformity.
+- Tuomisaari 1997, VTT Publications 300; Fujii, Sano, Ohmiya 2014; Baek et al. 2022: abstracts
+  without thresholds.
+- Frantzich and Nilsson 2003; Fridolf et al. 2013: walking speeds in tunnels, no thresholds.
+- Colomb et al. 2007: targets in a fog chamber against Adrian's model: the nearest precedent; only
+  its abstract was read.
 )md";
 
 }  // namespace luxodus::light

@@ -14,7 +14,7 @@ constexpr const char* second_hand =
     "paper; ";
 constexpr const char* chamber_light =
     "Illuminance is horizontal, in the middle of the chamber and in clear air: the source does not "
-    "say where. Measured in the smoke it would be another one, see the last rows.";
+    "say where. The last rows of T1 have it measured in the smoke.";
 
 /// From the eye to the far wall [m].
 constexpr double chamber_m = 5.5;
