@@ -4,7 +4,6 @@
 
 #include "actors/judge/report/page.hpp"
 #include "runtime/core/output_text.hpp"
-#include "scenes/emergency/legibility.hpp"
 
 namespace luxodus {
 
@@ -233,7 +232,7 @@ std::string method_section(const PageParts& parts) {
         paragraph(t.say("method.signs", t.number(m.sure_errors, 2), t.number(m.wrong_verdicts))) +
         paragraph(t("method.legible"));
   if (m.sure_errors > 0 && parts.a.people.place_unknown)
-    out += paragraph(t.say("method.unknown_place", unknown_place_contrast));
+    out += paragraph(t("method.unknown_place"));
   Facts facts(t);
   facts.add("method.version", "Luxodus " + parts.a.version);
   facts.add("method.scene", parts.a.scene.file);
