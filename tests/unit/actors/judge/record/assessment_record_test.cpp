@@ -26,7 +26,7 @@ SightRecord sight() {
   out.reason = remark(RemarkId::irritant_smoke);
   out.from_gaze_deg = std::nan("");
   out.line_of_sight.visible_within_m = std::nan("");
-  out.seen = {true, look(), 0.25, {8, true}, {9, false}, {}, {}};
+  out.seen = {true, look(), 0.25, {0.5, 4, 12}, {8, true}, {9, false}, {}, {}};
   out.seen->other_eyes = {{"protan", SightVerdict::invisible, {}, {0.5, 0.25}}};
   out.seen->other_light = {false, SightVerdict::legible, {}, look()};
   return out;
@@ -90,8 +90,8 @@ AssessmentRecord full() {
   a.state.remarks = {remark(RemarkId::young_eyes, 20)};
   a.verdict = {"first", "no check made fails", {1, 0, 0, 0}};
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
-  a.people = {40, 0.5, true, {"protan"}};
-  a.method = {7, 1000, 0.5};
+  a.people = {40, 0.5, true, true, {"protan"}};
+  a.method = {7, 1000, 0.5, 0.01, 5};
   a.sight_counts = {{"visible but not legible", 1}};
   a.checks = {check()};
   a.sights = {sight()};
