@@ -98,8 +98,13 @@ class EmittersMet {
   /// faces, the sign that was hit, flames; each multiplied by the transmittance of the media before
   /// it.
   void add_along(EyePath& p, const Hit& hit) {
-    const Real slack = 1 + 1e-5_r;  // an emitter's body is as far away as its face
-    Real reach = hit.distance * slack;
+    add_faces(p, hit.distance * face_slack);  // an emitter's body is as far away as its face
+    add_emitted_by_sign(p, hit);
+    add_flames_met(p, hit.distance);
+  }
+
+  /// Of these, emitting faces within `reach`.
+  void add_faces(EyePath& p, Real reach) {
     Ray rest = p.ray;
     Real before = 0;
     for (int k = 0; k < limits::emitters_per_line; ++k) {
@@ -116,14 +121,12 @@ class EmittersMet {
         p.add(i, {emitter.group, weight * sent * through_[i] * past_body});
       }
       // Continue past it by more than rounding, or the same face would be hit again.
-      const Real step = e.distance * slack + scene_.min_offset_m;
+      const Real step = e.distance * face_slack + scene_.min_offset_m;
       rest.origin += rest.direction * step;
       before += step;
       reach -= step;
       if (!(reach > 0)) break;
     }
-    add_emitted_by_sign(p, hit);
-    add_flames_met(p, hit.distance);
   }
 
   /// Light that a point of a sign's face emits towards an eye, without media and reflected light.
@@ -166,6 +169,8 @@ class EmittersMet {
   }
 
  private:
+  static constexpr Real face_slack = 1 + 1e-5_r;
+
   /// Balance-heuristic weight of hitting an emitting face, `distance` along the path's ray.
   double weight_of_face(const EyePath& p, uint32_t emitter, const EmissionPoint& point,
                         Real distance) {

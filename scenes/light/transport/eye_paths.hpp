@@ -222,6 +222,12 @@ class EyeScores {
     const double passed =
         medium_transmittance(scene_, line.ray, line.length, chosen.band, resolver_);
     transmission_ += passed;
+    // Emitters without a body do not end the line. What they send arrives, too.
+    light_.clear();
+    EyePath faces{line.ray, PathBands::one(chosen.band), EmitterHits::all, chosen.lm_per_w, light_};
+    eye_.emitters().add_faces(faces, line.length);
+    reflected_.add_scaled(light_, 1);
+    at_eye_.add_scaled(light_, 1);
     light_.clear();
     const Vec3 end = line.ray.origin + line.ray.direction * line.length;
     eye_.radiance({end, line.ray.direction}, chosen.band, EmitterHits::all, chosen.lm_per_w,

@@ -265,6 +265,7 @@ TEST_CASE("shared paths estimate the difference of layouts better than each layo
     AssessOptions asked;
     asked.threads = 2;
     asked.seed = seed;
+    asked.sure_errors = sure_errors_of_races;
     auto state = LayoutGroupState::make(*groups.front().lights, *groups.front().base, fire, asked,
                                         [](const std::string&, double) {});
     REQUIRE(state.ok());
