@@ -3,8 +3,8 @@
 #   ./test.sh                 every promise, optimised build
 #   ./test.sh -R emergency    only tests whose name matches (any CTest option passes through)
 #   ./test.sh --sanitize      every promise under the address and undefined-behaviour sanitizers
-#   ./test.sh --long          only tests that take minutes, and the others' full numbers of particles
-#                             and seeds: tests/tools/long_tests.sh
+#   ./test.sh --long          only tests that take minutes, and the others' full numbers of
+#                             particles and seeds: tests/tools/long_tests.sh
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -26,6 +26,6 @@ status=0
 ctest --preset "$preset" -j "$(nproc)" --output-on-failure --no-tests=error -LE '^long$' "$@" ||
   status=$?
 left=$(ctest --preset "$preset" -N -L '^long$' | sed -n 's/^Total Tests: //p')
-echo "ran tests at their daily length; left to ./test.sh --long: $left tests, and the full numbers" \
-  "of particles and seeds of others"
+echo "ran tests at their daily length; left to ./test.sh --long: $left tests, and the full" \
+  "numbers of particles and seeds of others"
 exit "$status"

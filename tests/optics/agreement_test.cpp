@@ -125,19 +125,7 @@ TEST_CASE("analogue and weighted absorption give equal light") {
 TEST_CASE("indirect illuminance by paths from the eye equals the flux that crosses a plane there") {
   SceneDescription scene = scene_from_toml(furnished_room);
   constexpr uint32_t per_side = 5, n = per_side * per_side;
-  std::vector<BinSum> probes_of_plane;
-  for (const PlaneMeasure& plane : scene.planes) {
-    probes_of_plane.push_back({&TallyBlocks::probes, {}});
-    for (uint32_t k = 0; k < n; ++k) {
-      ProbeMeasure p;
-      p.name = plane.name + " " + std::to_string(k);
-      p.position = plane.corner + plane.edge_u * ((k % per_side + 0.5) / per_side) +
-                   plane.edge_v * ((k / per_side + 0.5) / per_side);
-      p.normal = glm::normalize(glm::cross(plane.edge_u, plane.edge_v));
-      probes_of_plane.back().bins.push_back(static_cast<uint32_t>(scene.probes.size()));
-      scene.probes.push_back(p);
-    }
-  }
+  const std::vector<BinSum> probes_of_plane = add_probes_on_planes(scene, per_side);
   scene.run.eye_path_factor = 8;
   const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
   RunOptions options;

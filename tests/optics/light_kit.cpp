@@ -12,6 +12,23 @@ SceneDescription scene_from_toml(const std::string& text) {
   return *test::described_text(text);
 }
 
+std::vector<BinSum> add_probes_on_planes(SceneDescription& scene, uint32_t per_side) {
+  std::vector<BinSum> out;
+  for (const PlaneMeasure& plane : scene.planes) {
+    out.push_back({&TallyBlocks::probes, {}});
+    for (uint32_t k = 0; k < per_side * per_side; ++k) {
+      ProbeMeasure p;
+      p.name = plane.name + " " + std::to_string(k);
+      p.position = plane.corner + plane.edge_u * ((k % per_side + 0.5) / per_side) +
+                   plane.edge_v * ((k / per_side + 0.5) / per_side);
+      p.normal = glm::normalize(glm::cross(plane.edge_u, plane.edge_v));
+      out.back().bins.push_back(static_cast<uint32_t>(scene.probes.size()));
+      scene.probes.push_back(p);
+    }
+  }
+  return out;
+}
+
 namespace {
 
 SceneDescription cut_into_batches(SceneDescription scene, const RunOptions& options) {

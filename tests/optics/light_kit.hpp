@@ -23,6 +23,10 @@ namespace luxodus::light {
 /// Reads a scene from the text of a scene file. Requires: the text has no mistake.
 SceneDescription scene_from_toml(const std::string& text);
 
+/// Adds a grid of probes of so many a side on each plane, facing as it does. Returns the probes of
+/// each plane as a sum.
+std::vector<BinSum> add_probes_on_planes(SceneDescription& scene, uint32_t per_side);
+
 // ---- runs --------------------------------------------------------------------------------------
 
 /// Factor by which runs have fewer particles; errors may be larger by its root and a quarter, since

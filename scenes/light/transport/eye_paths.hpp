@@ -175,7 +175,7 @@ class EyeScores {
     const CompiledSign& sign = scene_.signs[target.sign];
     const ShadowRay c = line_to_face(target, uv);
     const PathBand chosen = choose_band();
-    if (part == 2) return look_beside_face(target, uv, chosen);
+    if (part == 2) return look_beside_face(target, uv, c, chosen);
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, chosen.band, resolver_);
     const OwnLight own = own_light(sign, uv, c, chosen.band);
     own_ += own.at_face;
@@ -194,8 +194,8 @@ class EyeScores {
 
   /// The surround: `reflected` is the light that arrives at the eye from beyond the distance of the
   /// face, `path` the veil up to there, which is that of the face, too.
-  void look_beside_face(const EyeTarget& target, const Vec2& uv, const PathBand& chosen) {
-    const ShadowRay c = line_to_face(target, uv);
+  void look_beside_face(const EyeTarget& target, const Vec2& uv, const ShadowRay& c,
+                        const PathBand& chosen) {
     const Hit hit = resolver_.nearest(c.ray);
     if (hit.found() && hit.distance < c.ray.length)
       return look_at_obstacle(target, uv, c, hit.distance, chosen);

@@ -9,6 +9,7 @@
 
 #include "tests/kit/lone_actor.hpp"
 #include "tests/unit/actors/cast/process/library_scene.hpp"
+#include "tests/unit/actors/cast/tracing/noted_port.hpp"
 
 using namespace luxodus;
 
@@ -54,23 +55,6 @@ struct SteppedStates final : StateMaker {
   Merges merges;
 };
 
-struct NotedPort final : LeasePort {
-  void want_leases(size_t) override {}
-  void leases_done(std::span<const uint64_t> leases) override {
-    done.insert(done.end(), leases.begin(), leases.end());
-  }
-  bool has_room_for(size_t) const override { return true; }
-  void lease_failed(uint64_t, int64_t) override { FAIL("no batch fails"); }
-  bool give_back(std::span<const uint64_t>) override { return true; }
-  void return_leases() override {}
-  void want_room() override {}
-  bool room_to_come() const override { return false; }
-  size_t flush_bytes() const override { return 0; }
-  void give_up(const Problem& why) override { FAIL(why.what); }
-  void thread_failed(const std::exception_ptr&) override { FAIL("the photon-thread failed"); }
-  std::vector<uint64_t> done;
-};
-
 struct TracingNode : test::LoneNode {
   TracingNode() {
     for (const StateObject& state : {first, second}) {
@@ -93,7 +77,7 @@ struct TracingNode : test::LoneNode {
   const StateObject first{1, "first"}, second{1, "second"};
   const std::shared_ptr<const CompiledScene> scene = scene_of("empty_room", "", 1);
   SteppedStates states{*scene};
-  NotedPort port;
+  test::NotedPort port;
   StateTracer work{*scene, states, 1, scheduler, port};
 };
 

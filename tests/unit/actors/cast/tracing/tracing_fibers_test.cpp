@@ -10,6 +10,7 @@
 #include "actors/results/run/particle_portion.hpp"
 #include "tests/kit/lone_actor.hpp"
 #include "tests/unit/actors/cast/process/library_scene.hpp"
+#include "tests/unit/actors/cast/tracing/noted_port.hpp"
 
 using namespace luxodus;
 
@@ -43,27 +44,12 @@ struct CountingTracer final : BatchTracer {
   std::function<void()> rest;
 };
 
-struct DonePort final : LeasePort {
-  void want_leases(size_t) override {}
-  void leases_done(std::span<const uint64_t> leases) override { done += leases.size(); }
-  bool has_room_for(size_t) const override { return true; }
-  void lease_failed(uint64_t, int64_t) override { FAIL("no batch fails"); }
-  bool give_back(std::span<const uint64_t>) override { return true; }
-  void return_leases() override {}
-  void want_room() override {}
-  bool room_to_come() const override { return false; }
-  size_t flush_bytes() const override { return 0; }
-  void give_up(const Problem& why) override { FAIL(why.what); }
-  void thread_failed(const std::exception_ptr&) override { FAIL("a photon-thread failed"); }
-  size_t done = 0;
-};
-
 /// Traces two batches on some photon-threads, beside a fiber that is always ready.
 Work traced(size_t fibers, uint64_t rays_of_particle) {
   const auto scene = scene_of("empty_room", "", 1);
   test::LoneNode node;
   Work work;
-  DonePort port;
+  test::NotedPort port;
   PhotonConfig config;
   config.fibers = fibers;
   TracingFibers tracing(*scene, GeometryAccess{}, 1, config, node.scheduler, port,
@@ -82,7 +68,7 @@ Work traced(size_t fibers, uint64_t rays_of_particle) {
   tracing.start();
   tracing.add(7, 0);
   tracing.add(8, 1);
-  while (port.done < 2) node.scheduler.turn();
+  while (port.done.size() < 2) node.scheduler.turn();
   const auto particles = 2 * static_cast<uint64_t>(scene->batch_particles);
   CHECK(tracing.counters().particles == particles);
   CHECK(tracing.counters().rays == particles * rays_of_particle);
