@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenes/emergency/smoke_laws.hpp"
 
@@ -93,6 +94,13 @@ void judge_in_irritant_smoke(Sight& sight) {
 double extinction_of(const SignView& view, const SignLook& look) {
   const double passed = std::clamp(look.transmission, 1e-300, 1.0);
   return view.distance_m > 0 ? -std::log(passed) / view.distance_m : 0;
+}
+
+/// The distance from which irritant smoke makes reading impossible, whatever the light [m].
+double stinging_distance_m(const Sign& sign, double extinction, const SightRules& rules) {
+  if (!rules.irritant_smoke || extinction < irritant_from)
+    return std::numeric_limits<double>::infinity();
+  return irritant_distance_m(jin_constant(sign.lighting), extinction);
 }
 
 /// The verdict by the light that reaches the eye.
@@ -190,13 +198,13 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
     return sight;
   }
   judge_by_light(sight, view, look, rules);
-  sight.stings = rules.irritant_smoke && sight.extinction >= irritant_from &&
-                 view.distance_m > irritant_distance_m(constant, sight.extinction);
+  sight.stings = view.distance_m > stinging_distance_m(sign, sight.extinction, rules);
   if (sight.stings) judge_in_irritant_smoke(sight);
   return sight;
 }
 
-Reach reach_of(const SignView& view, const SignLook& look, const SightRules& rules) {
+Reach reach_of(const Sign& sign, const SignView& view, const SignLook& look,
+               const SightRules& rules) {
   const double extinction = extinction_of(view, look);
   const double whole = std::sqrt(view.width_arcmin * view.height_arcmin);
   /// At this distance, instead of that of the view.
@@ -225,7 +233,8 @@ Reach reach_of(const SignView& view, const SignLook& look, const SightRules& rul
     return level_at(distance, look.silhouette, look.surround, whole);
   };
   if (!(view.distance_m > 0)) return {};
-  return {farthest(pattern_at(view.detail_arcmin), level_read),
+  return {std::min(farthest(pattern_at(view.detail_arcmin), level_read),
+                   stinging_distance_m(sign, extinction, rules)),
           std::max(farthest(pattern_at(whole), rules.seen_from()),
                    farthest(silhouette, rules.seen_from()))};
 }

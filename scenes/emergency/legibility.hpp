@@ -11,14 +11,9 @@
 #include "scenes/emergency/remark.hpp"
 #include "scenes/emergency/sight.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/uncertain.hpp"
 
 namespace luxodus {
-
-/// A number with its standard error.
-struct Uncertain {
-  double value = 0;
-  double error = 0;
-};
 
 /// Light that arrives at an eye from one sign.
 struct SignLook {
@@ -92,7 +87,9 @@ struct Reach {
 
 /// As far as this look tells: with its luminances and the mean extinction of its line. Legend and
 /// ground lose contrast by Beer's law; the ground and the veil before it keep their luminances.
-Reach reach_of(const SignView& view, const SignLook& look, const SightRules& rules);
+/// Irritant smoke ends reading where judge_sight ends it.
+Reach reach_of(const Sign& sign, const SignView& view, const SignLook& look,
+               const SightRules& rules);
 
 /// Whether the sign is read, or the verdict is undecided and it may be read.
 bool may_be_read(const Sight& sight);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "actors/judge/assess/assessment_inputs.hpp"
 #include "actors/judge/assess/state_words.hpp"
@@ -63,11 +65,10 @@ LookRecord look_of(const SignLook& look, const Sight& sight) {
 }
 
 /// None of a sign that is hidden or dark.
-std::optional<SeenRecord> seen_of(const SightRow& row, const AssessmentSettings& people,
-                                  const SightRules& rules) {
+std::optional<SeenRecord> seen_of(const SightRow& row, const Reach& reach,
+                                  const AssessmentSettings& people) {
   if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
     return std::nullopt;
-  const Reach reach = reach_of(row.view, row.look, rules);
   SeenRecord out{
       .in_new_light = row.in_new_light,
       .look = look_of(row.look, row.sight),
@@ -88,8 +89,7 @@ std::optional<SeenRecord> seen_of(const SightRow& row, const AssessmentSettings&
   return out;
 }
 
-SightRecord sight_of(const SightRow& row, const AssessmentSettings& people,
-                     const SightRules& rules) {
+SightRecord sight_of(const SightRow& row, const Reach& reach, const AssessmentSettings& people) {
   return {.from = row.from,
           .stands_for = {row.stands_for, row.from.kind == SubjectKind::route ? "m" : "m2"},
           .along_m = row.along_m,
@@ -106,7 +106,7 @@ SightRecord sight_of(const SightRow& row, const AssessmentSettings& people,
           .detail_arcmin = row.view.detail_arcmin,
           .line_of_sight = {row.line.distance_m, row.line.clear, row.line.extinction,
                             row.line.visibility_m, row.line.seen},
-          .seen = seen_of(row, people, rules)};
+          .seen = seen_of(row, reach, people)};
 }
 
 /// A number that is not finite is none, as in JSON.
@@ -180,9 +180,13 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
                 .sure_errors = assessment.sure_errors};
   for (const Check& check : assessment.checks) out.checks.push_back(check_of(check));
   const SightRules rules{.eye = {scene.assessment.age_years},
+                         .irritant_smoke = scene.assessment.irritant_smoke.value_or(false),
                          .place_unknown = assessment.place_unknown};
+  std::map<std::string_view, const Sign*> signs;
+  for (const Sign& sign : scene.signs) signs[sign.name] = &sign;
   for (const SightRow& row : assessment.sights)
-    out.sights.push_back(sight_of(row, scene.assessment, rules));
+    out.sights.push_back(
+        sight_of(row, reach_of(*signs.at(row.sign), row.view, row.look, rules), scene.assessment));
   out.sweep = assessment.sweep;
   out.over_time = assessment.over_time;
   for (const StateWarning& one : assessment.warnings) out.warnings.push_back(warning_of(one));

@@ -172,7 +172,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
     for (SightRow& row : rows[i]) rows_.front().push_back(std::move(row));
   }
   std::fill(rows_.begin() + 1, rows_.end(), rows_.front());
-  const Comparisons comparisons{faced_.size(), values_of_light * judged_.per_light(),
+  const Comparisons comparisons{faced_.size(), values_of_light * judged_.per_light() * ages.size(),
                                 options_.rounds};
   sure_errors_ = options_.sure_errors.value_or(
       luxodus::sure_errors(options_.wrong_verdicts, comparisons, static_cast<double>(min_batches)));

@@ -11,20 +11,6 @@ namespace {
 
 constexpr size_t surround = 2;
 
-/// Error propagation for independent samples, to first order.
-Uncertain plus(const Uncertain& a, const Uncertain& b) {
-  return {a.value + b.value, std::hypot(a.error, b.error)};
-}
-Uncertain product(const Uncertain& a, const Uncertain& b) {
-  return {a.value * b.value, std::hypot(a.value * b.error, a.error * b.value)};
-}
-Uncertain times(double factor, const Uncertain& a) {
-  return {factor * a.value, std::abs(factor) * a.error};
-}
-Uncertain minus(const Uncertain& a, const Uncertain& b) {
-  return plus(a, times(-1, b));
-}
-
 Uncertain whole(const Readout& readout, const CompiledScene& scene, uint32_t bin,
                 EyeQuantity quantity) {
   const Estimate e = readout.value(scene.blocks.views, bin, static_cast<uint32_t>(quantity));

@@ -14,9 +14,10 @@ inline constexpr double wrong_verdicts = 0.01;
 
 /// Values that are compared with their limits, each as often as there are looks.
 struct Comparisons {
-  size_t views = 1;   // of signs, in all states of the report
-  size_t values = 2;  // of each view: legend minus ground, face minus surround; in each light
-  int looks = 1;      // rounds of paths, after each of which a verdict may be given
+  size_t views = 1;  // of signs, in all states of the report
+  /// Of each view: legend minus ground, face minus surround; in each light, for each kind of eyes.
+  size_t values = 2;
+  int looks = 1;  // rounds of paths, after each of which a verdict may be given
 };
 
 /// Distance from a limit in standard errors that few values exceed by chance: with it, at most

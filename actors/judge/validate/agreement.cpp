@@ -9,7 +9,7 @@ namespace luxodus::light {
 
 namespace {
 
-/// Distance from a limit at which a rule is answered, in standard errors: as verdicts on signs.
+/// Distance from a limit at which a rule is answered, in standard errors.
 constexpr double sure_errors = 2;
 
 std::string allowed_text(const Interval& allowed) {
@@ -75,19 +75,19 @@ RuleResult read_agrees(const Uncertain& read, const Uncertain& seen, const Inter
 }
 
 RuleResult is_beyond(const Uncertain& far, const Uncertain& near) {
-  RuleResult out = within(difference(far, near), {0, unlimited});
+  RuleResult out = within(minus(far, near), {0, unlimited});
   out.reason = "difference " + out.reason;
   return out;
 }
 
 RuleResult is_much_beyond(const Uncertain& far, const Uncertain& near) {
-  RuleResult out = within(difference(far, near), {limits::about_equal, unlimited});
+  RuleResult out = within(minus(far, near), {limits::about_equal, unlimited});
   out.reason = "difference " + out.reason;
   return out;
 }
 
 RuleResult is_about_equal(const Uncertain& a, const Uncertain& b) {
-  RuleResult out = within(difference(a, b), {-limits::about_equal, limits::about_equal});
+  RuleResult out = within(minus(a, b), {-limits::about_equal, limits::about_equal});
   out.reason = "difference " + out.reason;
   return out;
 }
@@ -115,10 +115,6 @@ Uncertain slope_of(std::span<const double> x, std::span<const Uncertain> y) {
 Uncertain quotient(const Uncertain& a, const Uncertain& b) {
   const double value = a.value / b.value;
   return {value, std::hypot(a.error, value * b.error) / std::abs(b.value)};
-}
-
-Uncertain difference(const Uncertain& a, const Uncertain& b) {
-  return {a.value - b.value, std::hypot(a.error, b.error)};
 }
 
 RuleResult all_of(std::span<const RuleResult> parts) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/emergency/legibility.hpp"
+#include "scenes/emergency/uncertain.hpp"
 
 namespace luxodus::light {
 
@@ -78,8 +78,6 @@ RuleResult acuity_agrees(const Uncertain& level);
 Uncertain slope_of(std::span<const double> x, std::span<const Uncertain> y);
 /// Quotient of independent values. Requires: the divisor is not 0.
 Uncertain quotient(const Uncertain& a, const Uncertain& b);
-/// Difference of independent values.
-Uncertain difference(const Uncertain& a, const Uncertain& b);
 
 /// "failing" if any part fails, else "not answered" if any part is not, else "kept"; the reasons of
 /// the parts that decide it.

@@ -62,10 +62,8 @@ class MeanSeen {
   }
 
  private:
-  static void add(Uncertain& sum, const Uncertain& one) {
-    sum = {sum.value + one.value, std::hypot(sum.error, one.error)};
-  }
-  Uncertain mean(const Uncertain& sum) const { return {sum.value / count_, sum.error / count_}; }
+  static void add(Uncertain& sum, const Uncertain& one) { sum = plus(sum, one); }
+  Uncertain mean(const Uncertain& sum) const { return times(1.0 / count_, sum); }
 
   int count_ = 0;
   Uncertain level_, ground_, difference_;  // sums
@@ -273,7 +271,7 @@ RuleResult judge_claim(const Claim& claim, const std::vector<Trial>& trials,
     case Rule::quotient:
       return within(quotient(found[0], found[1]), claim.allowed);
     case Rule::difference:
-      return within(difference(found[0], found[1]), claim.allowed);
+      return within(minus(found[0], found[1]), claim.allowed);
     case Rule::beyond:
       return is_beyond(found[0], found[1]);
     case Rule::much_beyond:

@@ -9,6 +9,7 @@
 
 #include "actors/judge/validate/experiment.hpp"
 #include "actors/judge/validate/threshold.hpp"
+#include "scenes/emergency/legibility.hpp"
 
 namespace luxodus::light {
 

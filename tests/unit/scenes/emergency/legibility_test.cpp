@@ -165,7 +165,8 @@ TEST_CASE("the reach of a sign is where its levels fall to their limits",
   const Sign sign = two_coloured();
   SignLook look = clear();
   look.transmission = 0.5;
-  const Reach reach = reach_of(view_of_sign(sign, {0, 0, 10}), look, {});
+  const SignView view = view_of_sign(sign, {0, 0, 10});
+  const Reach reach = reach_of(sign, view, look, {});
   // As seen from there, with the contrast that is left.
   const auto seen_from = [&](double distance) {
     SignLook there = look;
@@ -177,7 +178,14 @@ TEST_CASE("the reach of a sign is where its levels fall to their limits",
   CHECK(seen_from(reach.read_m).reading_level.value == Approx(level_read).epsilon(1e-3));
   CHECK(seen_from(reach.seen_m).seeing_level.value == Approx(level_seen).epsilon(1e-3));
   CHECK(reach.read_m < reach.seen_m);
-  CHECK(reach_of(view_of_sign(sign, {0, 0, 10}), {}, {}).read_m == 0);
+  CHECK(reach_of(sign, view, {}, {}).read_m == 0);
+  // Irritant smoke ends reading before light does: 8 / 0.576 (0.133 - 1.47 lg 0.576) = 6.7 m.
+  look.transmission = std::exp(-5.76);
+  look.difference = {40, 0};
+  const Reach stung = reach_of(sign, view, look, SightRules{{}, true});
+  CHECK(stung.read_m == Approx(6.7).epsilon(0.01));
+  CHECK(stung.read_m < reach_of(sign, view, look, {}).read_m);
+  CHECK(stung.seen_m == reach_of(sign, view, look, {}).seen_m);
 }
 
 TEST_CASE("glare makes a legible sign illegible", "[emergency][legibility]") {

@@ -2,10 +2,14 @@
 // in rooms with heavy tails, and resampled.
 #include "actors/judge/assess/wrong_verdicts.hpp"
 
+#include <fmt/format.h>
+
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "actors/judge/assess/reality_mode.hpp"
 #include "actors/judge/assess/view_light.hpp"
 #include "scenes/light/intersect/embree_scene.hpp"
 #include "scenes/light/transport/compile.hpp"
@@ -23,6 +27,16 @@ namespace {
 
 constexpr int rounds = 4;
 constexpr size_t batches_of_round = 64, paths_of_batch = 8;
+
+constexpr double levels[] = {0.1, 0.5, 0.9, 1.1, 2, 10};
+
+const char* const thin_smoke = R"(
+[[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 0.3
+albedo = 0.9
+)";
 
 /// A value of many batches of eight paths.
 using Batches = std::vector<double>;
@@ -57,7 +71,10 @@ distribution = "isotropic"
 position = [6, 0, 2.9]
 flux_lm = 3000
 )" + exit_sign_at("[11.95, 0, 2.2]") +
-         smoke + R"(
+         "white_reflectance = 0.5\n" + smoke + R"(
+[assessment]
+irritant_smoke = false
+
 [run]
 eye_path_factor = 1
 batch_particles = 256
@@ -235,14 +252,11 @@ TEST_CASE("rounds are pooled by their paths, and rare bright paths may be unseen
 }
 
 TEST_CASE("noise makes few verdicts wrong, beside a lamp that few paths pass closely") {
-  const std::string smoke =
-      "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = "
-      "0.3\nalbedo = 0.9\n";
   const int views = in_full() ? 100'000 : 1'000;
-  for (const auto& text : {lit_room(""), lit_room(smoke)}) {
+  for (const auto& text : {lit_room(""), lit_room(thin_smoke)}) {
     const TracedView view = traced(text, in_full() ? 8192 : 2048);
     for (const bool silhouette : {false, true})
-      for (const double level : {0.1, 0.5, 0.9, 1.1, 2.0, 10.0}) {
+      for (const double level : levels) {
         INFO("level " << level << (silhouette ? " of the silhouette" : " of the pattern"));
         const Added added = added_for(view, level, silhouette);
         for (const double each : {1e-2, 1e-3}) {
@@ -253,4 +267,42 @@ TEST_CASE("noise makes few verdicts wrong, beside a lamp that few paths pass clo
         }
       }
   }
+}
+
+TEST_CASE("traced paths of many seeds give few wrong verdicts, on either side of a limit") {
+  static const std::atomic<bool> nobody{false};
+  const int seeds = in_full() ? 200 : 4;
+  int reports = 0, wrong = 0, decided = 0;
+  for (const auto& text : {lit_room(""), lit_room(thin_smoke)}) {
+    const TracedView view = traced(text, 8192);
+    for (const bool silhouette : {false, true})
+      for (const double level : levels) {
+        const Added added = added_for(view, level, silhouette);
+        const double white = 500 + added.white, green = 50 + added.green;  // those of the sign
+        REQUIRE(std::min(white, green) >= 0);
+        const auto lit = described_text(
+            replaced(text, "mains_white = 500\nmains_green = 50",
+                     fmt::format("mains_white = {}\nmains_green = {}", white, green)));
+        const SightVerdict truth = judged(view, with(true_light(view), added), 0).verdict;
+        for (int seed = 1; seed <= seeds; ++seed) {
+          AssessOptions options;
+          options.seed = static_cast<uint64_t>(1000 * seed);
+          options.threads = 2;
+          options.rounds = 3;
+          Assessment found;
+          REQUIRE(
+              assess_sights(
+                  *lit, Scenario{}, {}, options, nobody, [](const std::string&, double) {}, found)
+                  .ok());
+          REQUIRE(found.sights.size() == 1);
+          const SightVerdict verdict = found.sights.front().sight.verdict;
+          ++reports;
+          decided += verdict == SightVerdict::undecided ? 0 : 1;
+          wrong += verdict == SightVerdict::undecided || verdict == truth ? 0 : 1;
+        }
+      }
+  }
+  const double allowed = limits::wrong_verdicts * reports;
+  CHECK(wrong <= allowed + 4 * std::sqrt(allowed));
+  CHECK(decided > reports / 4);
 }
