@@ -239,6 +239,21 @@ Reach reach_of(const Sign& sign, const SignView& view, const SignLook& look,
                    farthest(silhouette, rules.seen_from()))};
 }
 
+double stinging_extinction(const Sign& sign, const SignView& view, const SightRules& rules) {
+  if (!rules.irritant_smoke) return std::numeric_limits<double>::infinity();
+  const auto stings = [&](double extinction) {
+    return view.distance_m > stinging_distance_m(sign, extinction, rules);
+  };
+  if (stings(irritant_from)) return irritant_from;
+  double clear = irritant_from, dense = 2 * irritant_from;
+  while (!stings(dense)) dense *= 2;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = (clear + dense) / 2;
+    (stings(middle) ? dense : clear) = middle;
+  }
+  return dense;
+}
+
 bool may_be_read(const Sight& sight) {
   if (sight.verdict == SightVerdict::legible) return true;
   return sight.verdict == SightVerdict::undecided && !sight.stings &&

@@ -91,6 +91,10 @@ struct Reach {
 Reach reach_of(const Sign& sign, const SignView& view, const SignLook& look,
                const SightRules& rules);
 
+/// Mean extinction of the line from which irritant smoke makes reading impossible at the distance
+/// of a view, whatever the light [1/m]; infinite if the smoke is not irritant.
+double stinging_extinction(const Sign& sign, const SignView& view, const SightRules& rules);
+
 /// Whether the sign is read, or the verdict is undecided and it may be read.
 bool may_be_read(const Sight& sight);
 

@@ -25,6 +25,8 @@
 #include "actors/judge/assess/over_time.hpp"
 #include "actors/judge/assess/record_assessment.hpp"
 #include "actors/judge/assess/state_words.hpp"
+#include "actors/judge/assess/threshold_words.hpp"
+#include "actors/judge/thresholds/thresholds.hpp"
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
@@ -41,6 +43,7 @@ struct AssessCommandOptions {
   std::string out;
   AssessOptions assess;
   std::string place = "known";
+  std::vector<std::string> find;
   int nodes = 0;
   std::vector<std::string> at;
   bool codes_alone = false;
@@ -100,6 +103,7 @@ void print_summary(const AssessmentRecord& a) {
   if (const std::string behind = behind_words(a); !behind.empty())
     std::printf("%s\n", behind.c_str());
   if (a.over_time) std::printf("%s", guidance_text(*a.over_time).c_str());
+  std::printf("%s", thresholds_text(a.thresholds).c_str());
 }
 
 /// Estimates the remaining time from the work done.
@@ -115,6 +119,26 @@ class Estimate {
  private:
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
+
+/// All thresholds that the job asks for. Errors: as find_thresholds; the interrupt flag.
+Result<ThresholdRows> thresholds_of(const AssessmentJob& job, const Assessment& assessed,
+                                    ProgressLine& line) {
+  ThresholdRows out;
+  const auto scenario = judged_scenario(*job.scene, job.options.scenario);
+  if (!scenario) return scenario.problem();
+  for (const Sought sought : job.find) {
+    const AssessProgress told = [&](const std::string& what, double share) {
+      line.put(fmt::format("thresholds of {}: {}: {:.0f} %", name_of(sought), what, 100 * share),
+               false, share);
+    };
+    auto found = find_thresholds(
+        {*job.scene, scenario.value(), assessed, job.options, interrupt_flag(), told}, sought);
+    if (!found) return found.problem();
+    out.insert(out.end(), std::make_move_iterator(found->begin()),
+               std::make_move_iterator(found->end()));
+  }
+  return out;
+}
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto states = assessed_states(options.scene, times_asked(options.at));
@@ -133,6 +157,14 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   install_interrupt_handler();
   job.options.reality = !options.codes_alone;
   job.options.place_unknown = options.place == "unknown";
+  if (options.codes_alone && !options.find.empty())
+    return problem(
+        "--find looks for thresholds of sight, which --codes-alone leaves out: take one "
+        "of the two away");
+  for (const std::string& word : options.find) {
+    const auto at = std::find(sought_words.begin(), sought_words.end(), word);
+    job.find.push_back(static_cast<Sought>(at - sought_words.begin()));
+  }
   const auto nodes = nodes_that_trace(options.nodes);
   job.options.executor = nodes.get();
   return assess_into(job);
@@ -172,9 +204,10 @@ AssessedStates assessed_states(const std::string& file, std::vector<double> time
 }
 
 Result<ExitCode> assess_into(const AssessmentJob& job) {
-  const OutputPlan plan{{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv",
-                         "guided.csv", "by_guid.csv", "property_sets.csv", "issues.bcf"},
-                        {"plans", "schedules"}};
+  const OutputPlan plan{
+      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "guided.csv",
+       "thresholds.csv", "by_guid.csv", "property_sets.csv", "issues.bcf"},
+      {"plans", "schedules"}};
   const auto out = OutputFolder::claim(job.folder, plan);
   if (!out) return out.problem();
   if (!job.overwrite)
@@ -202,7 +235,14 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
     if (one.by_inspection) continue;  // told above
     warn(problem_in(one.place, one.remark ? english().remark(*one.remark) : one.words));
   }
-  const AssessmentRecord record = record_of(*job.scene, assessed.value(), build.version);
+  AssessmentRecord record = record_of(*job.scene, assessed.value(), build.version);
+  auto thresholds = thresholds_of(job, assessed.value(), line);
+  if (!thresholds) {
+    if (!interrupt_flag()) return thresholds.problem();
+    log_warning("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  record.thresholds = std::move(thresholds).value();
   if (auto ok = write_assessment(out->path(), record); !ok) return ok.problem();
   print_summary(record);
   if (auto ok = write_report_and_tell(out.value(), record, job.report); !ok) return ok.problem();
@@ -251,6 +291,10 @@ Command assess_command() {
             &o->assess.smoke_factors,
             "Factors of a sweep: signs are assessed again with all smoke times each of them",
             {.range = Range{0, 1e6}, .comma_separated = true}},
+           {"--find",
+            &o->find,
+            "Thresholds at which each sign is just read and just seen, from each place",
+            {.choices = {sought_words.begin(), sought_words.end()}, .comma_separated = true}},
            {"--place",
             &o->place,
             "Whether people know where the signs are; a sign of unknown place is seen at 5 times "
@@ -275,6 +319,7 @@ Command assess_command() {
           "    --deviation de-asr-a3.4-3\n"
           "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
           "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10\n"
+          "  luxodus assess office.toml --find extinction,luminance\n"
           "  luxodus assess office.toml --at 30s,60s,90s",
       .run = [o] { return exit_code_of(assess_scene(*o)); }};
   add_report_options(command, o->report);

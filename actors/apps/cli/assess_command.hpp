@@ -29,6 +29,7 @@ struct AssessmentJob {
   std::vector<double> times;  // of the states; at most one: a single state
   std::filesystem::path folder;
   AssessOptions options;
+  std::vector<Sought> find;  // thresholds to find besides
   bool overwrite = false;  // even files that no assessment has written
   bool strict = false;     // exit code 1 if anything is undecided
   ReportWords report;

@@ -41,6 +41,9 @@ struct AssessOptions {
   std::string sign;                 // name of the only sign to judge; "": all signs
   /// Selects views to judge before their light is known; empty: all views.
   std::function<bool(const SightRow& view)> wanted = {};
+  /// Whether the light of a view is known well enough to be traced no longer; empty: once its
+  /// verdict is decided.
+  std::function<bool(const SightRow& view)> enough = {};
   std::vector<double> smoke_factors = {};  // for a sweep: factors on the extinction of all smoke
   bool place_unknown = false;              // as in SightRules
   /// Expected number of verdicts on views that noise makes wrong, at most.

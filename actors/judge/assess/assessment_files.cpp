@@ -3,6 +3,7 @@
 #include "actors/judge/assess/bcf_issues.hpp"
 #include "actors/judge/assess/guid_results.hpp"
 #include "actors/judge/assess/guidance_words.hpp"
+#include "actors/judge/assess/threshold_words.hpp"
 #include "actors/results/formats/csv.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -129,6 +130,9 @@ Result<void> write_assessment(const fs::path& folder, const AssessmentRecord& as
       !ok)
     return ok;
   if (auto ok = write_or_remove(folder / "issues.bcf", bcf_issues(assessment)); !ok) return ok;
+  std::optional<CsvTable> thresholds;
+  if (!assessment.thresholds.empty()) thresholds = thresholds_csv(assessment.thresholds);
+  if (auto ok = write_or_remove(folder / "thresholds.csv", thresholds); !ok) return ok;
   std::optional<CsvTable> guided;
   if (assessment.over_time) guided = guidance_csv(*assessment.over_time);
   return write_or_remove(folder / "guided.csv", guided);

@@ -33,6 +33,9 @@ void set_albedo(SceneDescription& scene, double albedo) {
     if (!is_flame(medium)) medium.data.albedo.clear();
 }
 
+/// Name of a group that ageing does not give.
+constexpr const char* signs_group = "signs";
+
 /// Difference of two mixtures of the same groups.
 GroupMixture minus(const GroupMixture& light, const GroupMixture& other) {
   GroupMixture out;
@@ -76,11 +79,14 @@ std::string round_text(const RoundState& round) {
                          {"signs", std::move(signs)}});
   }
   const OtherSmoke& smoke = round.smoke;
-  const Json object = {
-      {"scenario", round.scenario},       {"at_s", round.at_s ? Json(*round.at_s) : Json()},
-      {"smoke_factor", smoke.factor},     {"albedo", smoke.albedo ? Json(*smoke.albedo) : Json()},
-      {"by_errors", smoke.by_errors},     {"eye_path_factor", round.eye_path_factor},
-      {"observers", std::move(observers)}};
+  const Json object = {{"scenario", round.scenario},
+                       {"at_s", round.at_s ? Json(*round.at_s) : Json()},
+                       {"smoke_factor", smoke.factor},
+                       {"albedo", smoke.albedo ? Json(*smoke.albedo) : Json()},
+                       {"by_errors", smoke.by_errors},
+                       {"signs_apart", round.signs_apart},
+                       {"eye_path_factor", round.eye_path_factor},
+                       {"observers", std::move(observers)}};
   return object.dump();
 }
 
@@ -92,6 +98,7 @@ Result<RoundState> parse_round(const std::string& text) try {
   out.smoke.factor = object.at("smoke_factor").get<double>();
   out.smoke.albedo = maybe_number(object.at("albedo"));
   out.smoke.by_errors = object.at("by_errors").get<bool>();
+  out.signs_apart = object.at("signs_apart").get<bool>();
   out.eye_path_factor = object.at("eye_path_factor").get<double>();
   if (object.at("observers").size() > limits::sights)
     return problem("a round of an assessment has too many observers");
@@ -117,6 +124,23 @@ Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& 
   out.ageing = std::move(ageing).value();
   out.lights = {{{}, out.ageing.renewal()}};
   return out;
+}
+
+Result<JudgedScene> judged_with_signs_apart(const SceneDescription& scene, const Scenario& scenario,
+                                            const OtherSmoke& smoke) {
+  auto out = judged_scene(scene, scenario, smoke);
+  if (!out) return out;
+  out->lights.push_back(out->lights.front());
+  scale_signs(out.value(), {1, 0});
+  out->signs_apart = true;
+  return out;
+}
+
+void scale_signs(JudgedScene& judged, const std::vector<double>& factors) {
+  for (Sign& sign : judged.scene.signs) sign.group = signs_group;
+  for (size_t light = 0; light < judged.lights.size(); ++light)
+    for (GroupMixture* mixture : {&judged.lights[light].aged, &judged.lights[light].as_new})
+      mixture->factors[signs_group] = factors[light];
 }
 
 std::vector<GroupMixture> JudgedScene::mixtures() const {
@@ -158,7 +182,8 @@ Result<std::shared_ptr<const TracedState>> RoundStates::make(const std::string& 
   if (!described) return described.problem();
   const auto scenario = find_scenario(*described.value(), round->scenario);
   if (!scenario) return scenario.problem();
-  const auto judged = judged_scene(*described.value(), scenario.value(), round->smoke);
+  const auto make = round->signs_apart ? judged_with_signs_apart : judged_scene;
+  const auto judged = make(*described.value(), scenario.value(), round->smoke);
   if (!judged) return judged.problem();
   auto scene = compile_round(judged.value(), round.value());
   if (!scene) return scene.problem();

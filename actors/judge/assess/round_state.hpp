@@ -34,6 +34,7 @@ struct RoundState {
   std::string scenario;        // by name
   std::optional<double> at_s;  // the state of a scene that changes in time
   OtherSmoke smoke;
+  bool signs_apart = false;         // as in JudgedScene
   double eye_path_factor = 0;       // as in RunSettings
   std::vector<Observer> observers;  // each with the signs to look at
 };
@@ -66,6 +67,7 @@ struct JudgedScene {
   SceneDescription scene;
   AgeingShares ageing;              // defines the source groups
   std::vector<JudgedLight> lights;  // at least one
+  bool signs_apart = false;         // the second light is the first without that of all signs
 
   /// Mixtures of all lights: the aged one, and the new one if luminaires age. Then, in the same
   /// order, the difference of each further light from the first one: estimated from the same paths,
@@ -89,6 +91,13 @@ Scenario thickened(Scenario scenario, double factor);
 /// The scene in a single light. Errors: as group_by_ageing.
 Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario,
                                  const OtherSmoke& smoke = {});
+/// With a second light, in which no sign gives light.
+Result<JudgedScene> judged_with_signs_apart(const SceneDescription& scene, const Scenario& scenario,
+                                            const OtherSmoke& smoke = {});
+
+/// Gives all signs a source group of their own, and its light a factor in each light. Requires: a
+/// factor for each light.
+void scale_signs(JudgedScene& judged, const std::vector<double>& factors);
 
 /// The compiled scene of a round: particles, and paths from the round's eyes. Errors: as
 /// compile_scene.

@@ -185,7 +185,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
 
 /// The observers of a round with their undecided signs, and the number of paths.
 RoundState SightsInLights::round_state(int round, const std::vector<size_t>& views) const {
-  RoundState out{judged_.scenario.name, scene_.at_s, smoke_, 0, {}};
+  RoundState out{judged_.scenario.name, scene_.at_s, smoke_, judged_.signs_apart, 0, {}};
   size_t last = stands_.size();
   for (const size_t view : views) {
     const Faced& faced = faced_[view];
@@ -204,14 +204,18 @@ RoundState SightsInLights::round_state(int round, const std::vector<size_t>& vie
   return out;
 }
 
-SignLook SightsInLights::look_in(const Faced& faced, size_t mixture, double veil_cd_m2) const {
+SignLook SightsInLights::look_by(const Faced& faced, const ViewLight& light,
+                                 double veil_cd_m2) const {
   const SignFace& face = scene_.signs[faced.sign].face;
-  const ViewLight light = faced.light[mixture].mean();
   SignLook look = look_of(face, light, veil_cd_m2);
   const size_t legend = face.legend_part();
   look.colours =
       chromaticity_->at_eye(faced.sign, arrived(light[legend]), arrived(light[1 - legend]));
   return look;
+}
+
+SignLook SightsInLights::look_in(const Faced& faced, size_t mixture, double veil_cd_m2) const {
+  return look_by(faced, faced.light[mixture].mean(), veil_cd_m2);
 }
 
 SignLook SightsInLights::look_in(const Faced& faced, size_t mixture) const {
@@ -223,6 +227,52 @@ SightRules SightsInLights::rules_for(double age_years) const {
           scene_.assessment.irritant_smoke.value_or(false),
           sure_errors_,
           options_.place_unknown};
+}
+
+SignLook SightsInLights::look_if(const Faced& faced, const SignsChanged& changed, bool as_new,
+                                 const std::vector<double>& veils) const {
+  const auto mixture = [&](size_t light) {
+    return as_new ? judged_.new_mixture(light) : judged_.aged_mixture(light);
+  };
+  const size_t beyond = judged_.mixture_beyond_first(1, as_new);
+  const double lit = changed.luminance * changed.size * changed.size;
+  const ViewLight light = with_signs_scaled(
+      {faced.light[mixture(0)].mean(), faced.light[mixture(1)].mean(), faced.light[beyond].mean()},
+      changed.luminance, lit);
+  const double veil = veils[mixture(0)] + (1 - lit) * veils[beyond];
+  return look_by(faced, light, std::max(0.0, veil));
+}
+
+std::vector<Sight> SightsInLights::sights_if(size_t row, const SignsChanged& changed) const {
+  const auto faced = std::lower_bound(faced_.begin(), faced_.end(), row,
+                                      [](const Faced& one, size_t at) { return one.row < at; });
+  if (faced == faced_.end() || faced->row != row || faced->light.empty()) return {};
+  const Sign& sign = scene_.signs[faced->sign];
+  SignView view = rows_.front()[row].view;
+  for (double* size : {&view.width_arcmin, &view.height_arcmin, &view.detail_arcmin})
+    *size *= changed.size;
+  const AssessmentSettings& people = scene_.assessment;
+  std::vector<Sight> out;
+  for (size_t e = 0; e <= people.other_eyes.size(); ++e) {
+    const OtherEyes* other = e > 0 ? &people.other_eyes[e - 1] : nullptr;
+    const double age =
+        other != nullptr ? other->age_years.value_or(people.age_years) : people.age_years;
+    const auto judged = [&](bool as_new) {
+      const SignLook look =
+          look_if(*faced, changed, as_new,
+                  other != nullptr ? faced->veils_of_other_eyes[e - 1] : faced->veils_cd_m2);
+      return judge_sight(sign, view,
+                         other != nullptr && other->protan ? as_protan_eyes_see(look) : look,
+                         rules_for(age));
+    };
+    Sight sight = judged(false);
+    if (judged_.ageing.any()) {
+      Sight as_new = judged(true);
+      if (is_worse(as_new, sight)) sight = std::move(as_new);
+    }
+    out.push_back(std::move(sight));
+  }
+  return out;
 }
 
 /// Judges in aged light and, if luminaires age, in new light; the worse verdict counts.
@@ -326,7 +376,8 @@ void SightsInLights::judge(const CompiledScene& scene, const Totals& totals, dou
         judge_view(faced, light);
         if (light > 0 && open_.front()[view]) compare_with_first(faced, light);
       }
-      open_[light][view] = row.sight.verdict == SightVerdict::undecided;
+      open_[light][view] =
+          options_.enough ? !options_.enough(row) : row.sight.verdict == SightVerdict::undecided;
     }
   }
 }

@@ -16,6 +16,12 @@
 
 namespace luxodus {
 
+/// A change of all signs at once.
+struct SignsChanged {
+  double luminance = 1;  // factor on the luminance of their faces
+  double size = 1;       // factor on their edges; the centres stay
+};
+
 class SightsInLights {
  public:
   /// `observers`: those that the scene names. Requires: all arguments outlive this; if nodes trace,
@@ -43,6 +49,12 @@ class SightsInLights {
   /// is undecided in both lights, and none if aged light counts in one and new light in the other.
   /// Requires: not the first light.
   std::optional<double> error_beyond_first(size_t light, size_t row) const;
+  /// What all eyes, those of the assessment first, would see in a view of the first light if all
+  /// signs were changed. Light of signs is linear in their luminance; its part that reaches the eye
+  /// by way of surfaces and smoke is taken to grow with their area. The worse of aged and new light
+  /// counts. Requires: JudgedScene::signs_apart.
+  /// None of a view that no light decides, and of one that was not traced.
+  std::vector<Sight> sights_if(size_t row, const SignsChanged& changed) const;
   int64_t paths() const { return paths_; }
   /// Distance of a value from its limit at which a verdict is given, in standard errors.
   double sure_errors() const { return sure_errors_; }
@@ -62,9 +74,13 @@ class SightsInLights {
             double paths, Faced& faced) const;
   void judge(const CompiledScene& scene, const Totals& totals, double paths,
              const std::vector<size_t>& views);
+  SignLook look_by(const Faced& faced, const ViewLight& light, double veil_cd_m2) const;
   /// With the veil of some eyes.
   SignLook look_in(const Faced& faced, size_t mixture, double veil_cd_m2) const;
   SignLook look_in(const Faced& faced, size_t mixture) const;
+  /// With changed signs, in aged or in new light. `veils`: by mixture.
+  SignLook look_if(const Faced& faced, const SignsChanged& changed, bool as_new,
+                   const std::vector<double>& veils) const;
   SightRules rules_for(double age_years) const;
   void judge_view(const Faced& faced, size_t light);
   void judge_by_other_eyes(const Faced& faced, size_t light);
@@ -80,7 +96,7 @@ class SightsInLights {
   std::vector<std::vector<SightRow>> rows_;               // by light
   std::vector<std::vector<double>> errors_beyond_first_;  // by light and row; NaN: not known
   std::vector<Stand> stands_;
-  std::vector<Faced> faced_;
+  std::vector<Faced> faced_;                      // rows ascending
   double sure_errors_ = 0;                        // as in SightRules
   std::vector<std::vector<bool>> open_;           // undecided; by light and faced view
   std::vector<size_t> observing_;                 // indices into stands_ of the round's observers

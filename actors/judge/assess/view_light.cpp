@@ -55,6 +55,29 @@ ViewLight read_view(const Readout& readout, const CompiledScene& scene, const Ey
   return out;
 }
 
+ViewLight with_signs_scaled(const LightBySigns& light, double own, double lit) {
+  // Linear in `lit`. The terms come from the same paths, so errors add; the sum that starts from
+  // the nearer of the two estimates has the smaller error.
+  const auto scaled = [lit](const Uncertain& all, const Uncertain& dark, const Uncertain& beyond,
+                            double from_face) {
+    const double error =
+        std::min(all.error + std::abs(1 - lit) * beyond.error, dark.error + lit * beyond.error);
+    const double value = all.value + (1 - lit) * (beyond.value + from_face);
+    return Uncertain{std::max(0.0, value), error};
+  };
+  ViewLight out = light.all;
+  for (size_t part = 0; part < out.size(); ++part) {
+    const PartLight &all = light.all[part], &dark = light.dark[part];
+    const PartLight& beyond = light.dark_minus_all[part];
+    const double from_face = all.own.value * all.transmission.value;  // on the straight way
+    out[part].own = times(own, all.own);
+    out[part].reflected = scaled(all.reflected, dark.reflected, beyond.reflected, 0);
+    out[part].at_eye = scaled(all.at_eye, dark.at_eye, beyond.at_eye, from_face);
+    out[part].at_eye.value = std::max(0.0, out[part].at_eye.value + (own - 1) * from_face);
+  }
+  return out;
+}
+
 ArrivedLight arrived(const PartLight& part) {
   const double passed = part.transmission.value;
   const double own = part.own.value * passed, reflected = part.reflected.value * passed;

@@ -30,6 +30,16 @@ using ViewLight = std::array<PartLight, 3>;
 ViewLight read_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
                     size_t mixture);
 
+/// The light of a view in a light, in the same without the light of all signs, and the difference
+/// of the second from the first, estimated from the same paths.
+struct LightBySigns {
+  ViewLight all, dark, dark_minus_all;
+};
+
+/// The light of a view in which the faces have `own` times their luminance, and the light that
+/// signs give to surfaces and smoke has the factor `lit`.
+ViewLight with_signs_scaled(const LightBySigns& light, double own, double lit);
+
 /// What arrives at the eye from a part of a face, for the estimate of its colour.
 ArrivedLight arrived(const PartLight& part);
 

@@ -37,8 +37,6 @@ std::string name_of(const LuminaireKey& key, size_t number) {
   return (name.empty() ? "new" : name + ", moved") + " " + std::to_string(number);
 }
 
-const char* const group_of_signs = "signs";
-
 }  // namespace
 
 LayoutLights::LayoutLights(const std::vector<LayoutLight>& layouts) {
@@ -96,10 +94,7 @@ Result<JudgedScene> LayoutLights::judged(const SceneDescription& scene, const Sc
       out->lights[light].as_new.factors[group] = there * renewal.factor_of(ageing);
     }
   }
-  for (Sign& sign : out->scene.signs) sign.group = group_of_signs;
-  for (size_t light = 0; light < layouts(); ++light)
-    for (GroupMixture* mixture : {&out->lights[light].aged, &out->lights[light].as_new})
-      mixture->factors[group_of_signs] = sign_factors_[light];
+  scale_signs(out.value(), sign_factors_);
   return out;
 }
 

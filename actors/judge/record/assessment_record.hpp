@@ -13,6 +13,7 @@
 #include "actors/judge/record/guidance_record.hpp"
 #include "actors/judge/record/inputs_record.hpp"
 #include "actors/judge/record/plan_record.hpp"
+#include "actors/judge/record/threshold_record.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "scenes/emergency/legibility.hpp"
 
@@ -371,6 +372,7 @@ struct AssessmentRecord {
   std::vector<CheckRecord> checks;
   std::vector<SightRecord> sights;
   std::vector<SweepRow> sweep;
+  std::vector<ThresholdRecord> thresholds;
   std::optional<OverTime> over_time;
   std::vector<WarningRecord> warnings;
   ProjectRecord project;
@@ -388,7 +390,9 @@ struct AssessmentRecord {
     field("not_assessed", m.not_assessed)("people", m.people)("method", m.method);
     field("counts", derived([&m] { return m.verdict.counts; }));
     field("sight_counts", m.sight_counts)("checks", m.checks);
-    field("sights", m.sights)("sweep", m.sweep)("over_time", m.over_time)("warnings", m.warnings);
+    field("sights", m.sights)("sweep", m.sweep);
+    field("thresholds", m.thresholds, {.or_left_out = true});
+    field("over_time", m.over_time)("warnings", m.warnings);
     field("project", m.project)("scenario", m.scenario)("luminaires", m.luminaires);
     field("signs", m.signs)("places", m.places)("materials", m.materials)("media", m.media);
     field("cameras", m.cameras)("plan", m.plan);

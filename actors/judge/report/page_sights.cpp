@@ -354,7 +354,8 @@ std::string sights_section(const PageParts& parts) {
     out += subheading(t("sights.observers")) + rows + paragraph(t("sights.chromatic_note"), "note");
   if (!parts.a.people.other_eyes.empty())
     out += subheading(t("sights.eyes")) + paragraph(t("sights.eyes_lead")) + eyes_table(parts);
-  return out + sweep_table(parts) + subheading(t("sights.pictures")) + pictures(parts);
+  return out + sweep_table(parts) + thresholds_table(parts) + subheading(t("sights.pictures")) +
+         pictures(parts);
 }
 
 std::string thumb_section(const PageParts& parts) {

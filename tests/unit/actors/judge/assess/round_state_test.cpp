@@ -2,12 +2,12 @@
 // process, over inproc.
 #include "actors/judge/assess/round_state.hpp"
 
-#include "actors/cast/process/process_executor.hpp"
 #include "actors/results/run/run_in_pieces.hpp"
 #include "scenes/light/transport/compile.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 #include "tests/kit/replaced.hpp"
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
+#include "tests/unit/actors/judge/assess/round_nodes.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
@@ -22,20 +22,6 @@ std::string two_ageings() {
   return with_smoke(0.3, 0.6) + replaced(second, "0.75", "0.5");
 }
 
-/// Nodes of this process that trace the rounds of a scene.
-struct RoundNodes {
-  explicit RoundNodes(const std::shared_ptr<const SceneDescription>& scene) : states(scene) {
-    auto compiled = compile_scene(scene, find_scenario(*scene, "failed").value(), {1});
-    REQUIRE(compiled.ok());
-    auto started = ProcessExecutor::start(compiled.value(), states, NodesOptions{});
-    REQUIRE(started.ok());
-    nodes = std::move(started).value();
-  }
-
-  RoundStates states;
-  std::unique_ptr<ProcessExecutor> nodes;
-};
-
 void same_look(const SignLook& a, const SignLook& b) {
   CHECK(a.legend.value == b.legend.value);
   CHECK(a.legend.error == b.legend.error);
@@ -47,7 +33,7 @@ void same_look(const SignLook& a, const SignLook& b) {
 }  // namespace
 
 TEST_CASE("a round of an assessment is read back from its text to the bit", "[assess]") {
-  RoundState round{"smoke \"grey\"", 60.25, {1.0 / 3, 0.1, true}, 0.1, {}};
+  RoundState round{"smoke \"grey\"", 60.25, {1.0 / 3, 0.1, true}, true, 0.1, {}};
   Observer observer;
   observer.name = "somebody";
   observer.eye = {1e-17, -2.0 / 3, 1.65};
@@ -61,6 +47,7 @@ TEST_CASE("a round of an assessment is read back from its text to the bit", "[as
   CHECK(read->smoke.factor == round.smoke.factor);
   CHECK(read->smoke.albedo == round.smoke.albedo);
   CHECK(read->smoke.by_errors);
+  CHECK(read->signs_apart);
   CHECK(read->eye_path_factor == round.eye_path_factor);
   REQUIRE(read->observers.size() == 2);
   CHECK(read->observers[1].name == observer.name);
@@ -81,10 +68,10 @@ TEST_CASE("a text that is no round of an assessment is refused with a message", 
   refused("", "no round");
   refused("{}", "no round");
   refused("[1, 2]", "no round");
-  RoundState round{"failed", {}, {}, 1, {}};
+  RoundState round{"failed", {}, {}, false, 1, {}};
   round.observers.emplace_back().signs = {7};
   refused(round_text(round), "a sign that the scene has not");
-  refused(round_text({"there is none", {}, {}, 1, {}}), "there is none");
+  refused(round_text({"there is none", {}, {}, false, 1, {}}), "there is none");
 }
 
 TEST_CASE("nodes that know only the scene give the same luminances and verdicts as threads",
@@ -137,7 +124,7 @@ TEST_CASE("a run in pieces continues after an interrupt with the same result", "
   RoundNodes nodes(scene);
   const auto judged = judged_scene(*scene, find_scenario(*scene, "failed").value());
   REQUIRE(judged.ok());
-  RoundState round{"failed", {}, {}, 1, {}};
+  RoundState round{"failed", {}, {}, false, 1, {}};
   Observer& observer = round.observers.emplace_back();
   observer.eye = {2, 0.5, 1.65};
   observer.signs = {0};

@@ -96,6 +96,16 @@ AssessmentRecord full() {
   a.checks = {check()};
   a.sights = {sight()};
   a.sweep = {{0.5, "exit", 3, 2, 1}};
+  ThresholdRecord& threshold = a.thresholds.emplace_back();
+  threshold.sought = Sought::distance;
+  threshold.from = {SubjectKind::route, "way"};
+  threshold.sign = "exit";
+  threshold.read = true;
+  threshold.end = ThresholdEnd::found;
+  threshold.at = {2.5, 0.25};
+  threshold.above = true;
+  threshold.amounts_to = {6.5, "m"};
+  a.thresholds.emplace_back();  // not assessed
   a.over_time = over_time();
   a.warnings = {{"hall.toml:3: text", "hall.toml", 3, remark(RemarkId::no_route)}};
   a.project.name = "Hall";
@@ -156,11 +166,19 @@ TEST_CASE("keys, forms and their order in assessment.json stay as they are", "[j
   for (const auto& [key, value] : json.items()) keys += (keys.empty() ? "" : " ") + key;
   CHECK(keys ==
         "format version scene state verdict not_assessed people method counts sight_counts checks "
-        "sights sweep over_time warnings project scenario luminaires signs places materials media "
+        "sights sweep thresholds over_time warnings project scenario luminaires signs places "
+        "materials media "
         "cameras plan");
   CHECK(text_at(json, "state/luminaires") == R"({"lit":1,"of":2,"lit_names":["lamp"]})");
   CHECK(text_at(json, "state/smoke/extinction") ==
         R"({"min":0.1,"max":0.2,"unit":"1/m","wavelength_nm":633.0})");
+  CHECK(text_at(json, "thresholds/0") ==
+        R"({"sought":"distance","from":{"kind":"route","name":"way","text":"route \"way\""},)"
+        R"("along":{"value":0.0,"unit":"m"},"eye_height":{"value":0.0,"unit":"m"},)"
+        R"("sign":"exit","eyes":"","limit":"read","end":"found","value":2.5,)"
+        R"("standard_error":0.25,"unit":"m","holds":"above",)"
+        R"("amounts_to":{"value":6.5,"unit":"m"}})");
+  CHECK(text_at(json, "thresholds/1/value") == "null");
   CHECK(text_at(json, "state/rules/0/from") == "nothing");
   CHECK(text_at(json, "state/deviations/0/status") == "null");
   CHECK(text_at(json, "verdict") ==
