@@ -60,6 +60,13 @@ struct AssessOptions {
   }
 };
 
+/// Illuminance of an eye that looks at a sign, straight from all emitters but that sign, by the
+/// aged light [lx].
+struct EyeLight {
+  double lux = 0;
+  double clear_air_lux = 0;  // without the smoke
+};
+
 /// The view of one sign from one place.
 struct SightRow {
   Subject from;           // a route, an open area or an observer
@@ -75,6 +82,7 @@ struct SightRow {
   SignLook look;
   Sight sight;
   LineOfSight line;
+  EyeLight eye_light;         // of a view that light decides
   bool in_new_light = false;  // `look` and `sight` are those of new light
   /// Result in the other of the two lights; none if lit luminaires do not age, or if light does not
   /// decide the verdict.

@@ -53,7 +53,7 @@ void add_seen(const SightRecord& sight, CsvTable& table) {
   if (!sight.seen) {
     for (int i = 0; i < 11; ++i) table.empty_cell();
     table.cell(seen);
-    for (int i = 0; i < 6; ++i) table.empty_cell();
+    for (int i = 0; i < 10; ++i) table.empty_cell();
     return;
   }
   const LookRecord& look = sight.seen->look;
@@ -63,7 +63,9 @@ void add_seen(const SightRecord& sight, CsvTable& table) {
               sight.seen->extinction_per_m, sight.seen->jin.legible, seen,
               sight.seen->viewing_distance.within, sight.seen->margin.luminance,
               sight.seen->margin.read_within_m, sight.seen->margin.seen_within_m,
-              look.chromatic_difference, by_other_eyes(*sight.seen));
+              look.chromatic_difference, by_other_eyes(*sight.seen), sight.seen->eye_light.lux,
+              sight.seen->eye_light.clear_air_lux, name_of(sight.seen->experiments.read.observer),
+              name_of(sight.seen->experiments.seen.observer));
 }
 
 CsvTable sights_csv(const AssessmentRecord& assessment) {
@@ -99,7 +101,11 @@ CsvTable sights_csv(const AssessmentRecord& assessment) {
                   "margin.read_within.value",
                   "margin.seen_within.value",
                   "chromatic_difference.value",
-                  "other_eyes.verdict"});
+                  "other_eyes.verdict",
+                  "eye_illuminance.direct.value",
+                  "eye_illuminance.direct_in_clear_air.value",
+                  "experiments.read.mean_observer",
+                  "experiments.seen.mean_observer"});
   for (const SightRecord& sight : assessment.sights) {
     table.cells(english().subject(sight.from), sight.along_m, sight.stands_for.value,
                 sight.eye_height_m, sight.eye.x, sight.eye.y, sight.eye.z, sight.sign,

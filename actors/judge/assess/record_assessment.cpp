@@ -64,8 +64,51 @@ LookRecord look_of(const SignLook& look, const Sight& sight) {
           .chromatic_difference = chromatic_difference(look.colours.legend, look.colours.ground)};
 }
 
+/// What follows from a view and its state besides its verdict.
+struct Beside {
+  Reach reach;
+  ExperimentsRecord experiments;
+};
+
+/// The least albedo of the smoke that the state has; 1 without smoke.
+double least_albedo(const SceneDescription& scene, const AssessedState& state) {
+  double least = 1;
+  for (const Medium& medium : scene.media) {
+    const bool there =
+        std::any_of(state.media.begin(), state.media.end(),
+                    [&](const StatedMedium& one) { return one.name == medium.name; });
+    if (!there || is_flame(medium)) continue;
+    const auto take = [&](const SmokeOptics& optics) {
+      least = std::min(least,
+                       *std::min_element(optics.albedo.value.begin(), optics.albedo.value.end()));
+    };
+    if (medium.kind == MediumKind::layered)
+      for (const Layer& layer : medium.layers) take(layer.optics);
+    else
+      take(medium.optics);
+    for (const float albedo : medium.data.albedo) least = std::min(least, double{albedo});
+  }
+  return least;
+}
+
+StandingRecord record_of(const Standing& standing) {
+  return {standing.observer, standing.untested};
+}
+
+ExperimentsRecord experiments_of(const SightRow& row, const SightRules& rules, double albedo) {
+  const ObservedView view{.age_years = rules.eye.age_years,
+                          .distance_m = row.view.distance_m,
+                          .extinction = row.sight.extinction,
+                          .albedo = albedo,
+                          .irritant = rules.irritant_smoke,
+                          .place_unknown = rules.place_unknown,
+                          .reading_level = row.sight.reading_level.value,
+                          .seeing_level = row.sight.seeing_level.value};
+  return {record_of(standing_in_reading(view)), record_of(standing_in_seeing(view))};
+}
+
 /// None of a sign that is hidden or dark.
-std::optional<SeenRecord> seen_of(const SightRow& row, const Reach& reach,
+std::optional<SeenRecord> seen_of(const SightRow& row, const Beside& beside,
                                   const AssessmentSettings& people) {
   if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
     return std::nullopt;
@@ -73,7 +116,10 @@ std::optional<SeenRecord> seen_of(const SightRow& row, const Reach& reach,
       .in_new_light = row.in_new_light,
       .look = look_of(row.look, row.sight),
       .extinction_per_m = row.sight.extinction,
-      .margin = {row.sight.reading_level.value / level_read, reach.read_m, reach.seen_m},
+      .margin = {row.sight.reading_level.value / level_read, beside.reach.read_m,
+                 beside.reach.seen_m},
+      .eye_light = {row.eye_light.lux, row.eye_light.clear_air_lux},
+      .experiments = beside.experiments,
       .jin = {row.sight.jin_m, row.sight.jin_legible},
       .viewing_distance = {row.sight.viewing.allowed_oblique_m, row.sight.viewing.within},
       .other_light = {},
@@ -89,7 +135,7 @@ std::optional<SeenRecord> seen_of(const SightRow& row, const Reach& reach,
   return out;
 }
 
-SightRecord sight_of(const SightRow& row, const Reach& reach, const AssessmentSettings& people) {
+SightRecord sight_of(const SightRow& row, const Beside& beside, const AssessmentSettings& people) {
   return {.from = row.from,
           .stands_for = {row.stands_for, row.from.kind == SubjectKind::route ? "m" : "m2"},
           .along_m = row.along_m,
@@ -106,7 +152,7 @@ SightRecord sight_of(const SightRow& row, const Reach& reach, const AssessmentSe
           .detail_arcmin = row.view.detail_arcmin,
           .line_of_sight = {row.line.distance_m, row.line.clear, row.line.extinction,
                             row.line.visibility_m, row.line.seen},
-          .seen = seen_of(row, reach, people)};
+          .seen = seen_of(row, beside, people)};
 }
 
 /// A number that is not finite is none, as in JSON.
@@ -184,9 +230,12 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
                          .place_unknown = assessment.place_unknown};
   std::map<std::string_view, const Sign*> signs;
   for (const Sign& sign : scene.signs) signs[sign.name] = &sign;
-  for (const SightRow& row : assessment.sights)
-    out.sights.push_back(
-        sight_of(row, reach_of(*signs.at(row.sign), row.view, row.look, rules), scene.assessment));
+  const double albedo = least_albedo(scene, assessment.state);
+  for (const SightRow& row : assessment.sights) {
+    const Beside beside{reach_of(*signs.at(row.sign), row.view, row.look, rules),
+                        experiments_of(row, rules, albedo)};
+    out.sights.push_back(sight_of(row, beside, scene.assessment));
+  }
   out.sweep = assessment.sweep;
   out.over_time = assessment.over_time;
   for (const StateWarning& one : assessment.warnings) out.warnings.push_back(warning_of(one));

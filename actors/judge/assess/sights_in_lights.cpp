@@ -71,27 +71,35 @@ Factors factors_of(const CompiledScene& scene, const std::vector<GroupMixture>& 
   return out;
 }
 
-/// Veiling luminance in the eye [cd/m2], by age and mixture, from all emitters except the sign
-/// itself. Each part of an extended emitter, such as a flame, counts with its own direction and
-/// with the smoke before it.
-std::vector<std::vector<double>> veils_of(const Building& building, const GeometryAccess& access,
-                                          const SightRow& row, uint32_t sign,
-                                          const std::vector<double>& ages, const Factors& factors) {
+/// Light that arrives straight at an eye that looks at a sign, but for that of the sign.
+struct ArrivingBeside {
+  EyeLight at_eye;
+  std::vector<std::vector<double>> veils_cd_m2;  // veiling luminance, by age and mixture
+};
+
+/// Each part of an extended emitter, such as a flame, counts with its own direction and with the
+/// smoke before it.
+ArrivingBeside arriving_beside(const Building& building, const GeometryAccess& access,
+                               const SightRow& row, uint32_t sign, const std::vector<double>& ages,
+                               const Factors& factors) {
   const CompiledScene& scene = building.scene();
   const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
-  std::vector<std::vector<double>> veils(ages.size(), std::vector<double>(factors.size(), 0.0));
+  ArrivingBeside out;
+  out.veils_cd_m2.assign(ages.size(), std::vector<double>(factors.size(), 0.0));
   for (const ArrivingLight& light :
        direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
     const CompiledEmitter& emitter = scene.emitters[light.emitter];
     if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
+    const auto group = static_cast<size_t>(emitter.group);
+    out.at_eye.lux += light.illuminance_lx * factors.front()[group];
+    out.at_eye.clear_air_lux += light.clear_air_lx * factors.front()[group];
     const double away_deg = angle_deg(glm::dvec3(light.direction), gaze);
     for (size_t a = 0; a < ages.size(); ++a) {
       const double part = light.illuminance_lx * veil_per_lux(away_deg, ages[a]);
-      for (size_t m = 0; m < factors.size(); ++m)
-        veils[a][m] += part * factors[m][static_cast<size_t>(emitter.group)];
+      for (size_t m = 0; m < factors.size(); ++m) out.veils_cd_m2[a][m] += part * factors[m][group];
     }
   }
-  return veils;
+  return out;
 }
 
 /// Ages of the eyes that are judged: those of the assessment first, then the others.
@@ -151,7 +159,9 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
       if (stuck) row.sight.reason = remark(RemarkId::eye_in_solid);
       if (seen > 0 && !stuck) {
         row.sight.verdict = SightVerdict::undecided;
-        auto veils_by_age = veils_of(building, access, row, s, ages, factors);
+        ArrivingBeside beside = arriving_beside(building, access, row, s, ages, factors);
+        row.eye_light = beside.at_eye;
+        auto& veils_by_age = beside.veils_cd_m2;
         Faced& view = faced[i].emplace_back(
             Faced{rows[i].size(), i, s, std::move(veils_by_age.front()), {}, {}});
         view.veils_of_other_eyes.assign(std::make_move_iterator(veils_by_age.begin() + 1),

@@ -16,6 +16,7 @@
 #include "actors/judge/record/threshold_record.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "scenes/emergency/legibility.hpp"
+#include "scenes/emergency/mean_observer.hpp"
 
 namespace luxodus {
 
@@ -286,12 +287,36 @@ struct OtherEyesRecord {
   }
 };
 
+/// Illuminance of the eye straight from all emitters but the sign, in the smoke and without it.
+struct EyeLightRecord {
+  double lux = 0, clear_air_lux = 0;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("direct", m.lux, {.unit = "lx"});
+    field("direct_in_clear_air", m.clear_air_lux, {.unit = "lx"});
+  }
+};
+
+/// How the view stands to the mean observer of measured experiments.
+struct StandingRecord {
+  MeanObserver observer = MeanObserver::not_known;
+  Untested untested = Untested::nothing;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("mean_observer", m.observer)("untested", m.untested);
+  }
+};
+struct ExperimentsRecord {
+  StandingRecord read, seen;
+  static constexpr void fields(auto&& field, auto& m) { field("read", m.read)("seen", m.seen); }
+};
+
 /// What is known of a view whose sign is neither hidden nor dark.
 struct SeenRecord {
   bool in_new_light = false;
   LookRecord look;
   double extinction_per_m = 0;  // mean along the line of sight
   MarginRecord margin;
+  EyeLightRecord eye_light;
+  ExperimentsRecord experiments;
   JinRecord jin;
   ViewingDistanceRecord viewing_distance;
   std::optional<OtherLightRecord> other_light;
@@ -299,7 +324,8 @@ struct SeenRecord {
   static constexpr void fields(auto&& field, auto& m) {
     field("light", either(m.in_new_light, "new", "aged"))(in_place, m.look);
     field("extinction", m.extinction_per_m, {.unit = "1/m", .or_null = true});
-    field("margin", m.margin)("jin", m.jin)("viewing_distance", m.viewing_distance);
+    field("margin", m.margin)("eye_illuminance", m.eye_light)("experiments", m.experiments);
+    field("jin", m.jin)("viewing_distance", m.viewing_distance);
     field("other_light", m.other_light)("other_eyes", m.other_eyes, {.or_left_out = true});
   }
 };

@@ -6,6 +6,7 @@
 #include "actors/results/formats/json_fields.hpp"
 #include "scenes/emergency/guidance.hpp"
 #include "scenes/emergency/legibility.hpp"
+#include "scenes/emergency/mean_observer.hpp"
 
 namespace luxodus {
 
@@ -15,6 +16,10 @@ template <>
 inline constexpr size_t names_of<CheckVerdict> = check_verdicts;
 template <>
 inline constexpr size_t names_of<SightVerdict> = sight_verdicts;
+template <>
+inline constexpr size_t names_of<MeanObserver> = mean_observer_words.size();
+template <>
+inline constexpr size_t names_of<Untested> = untested_words.size();
 template <>
 inline constexpr size_t names_of<GuidedWalk::End> = GuidedWalk::ends;
 template <>

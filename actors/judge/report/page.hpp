@@ -23,6 +23,8 @@ std::string plans_section(const PageParts& parts);
 std::string schedules_section(const PageParts& parts);
 std::string places_section(const PageParts& parts);
 std::string sights_section(const PageParts& parts);
+/// Part of sights_section: the light at the eyes, and how views stand to experiments with people.
+std::string observers_note(const PageParts& parts);
 /// Part of sights_section; "" if no thresholds were sought.
 std::string thresholds_table(const PageParts& parts);
 std::string over_time_section(const PageParts& parts);

@@ -340,7 +340,7 @@ std::string sights_section(const PageParts& parts) {
   if (parts.a.sights.empty()) return paragraph(t("sights.none"));
   const auto heights = heights_of(parts.a);
   std::string out = paragraph(t("sights.lead"));
-  out += heights_table(parts, heights);
+  out += heights_table(parts, heights) + observers_note(parts);
   const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm, 90});
   for (const double height : heights)
     for (size_t level = 0; level < parts.schedule.levels(); ++level)

@@ -33,6 +33,8 @@ struct ExperimentSmoke {
   double extinction = 0;  // [1/m]
   double albedo = 1;
   double g = 0.6;  // of Henyey and Greenstein's phase function
+  /// Extinction falls with this power of the wavelength; it is stated at 633 nm.
+  double angstrom = 0;
 };
 
 enum class TargetShape { disc, rectangle, landolt_ring, text };
@@ -46,6 +48,7 @@ struct ExperimentTarget {
   double detail_m = 0;  // what must be seen; 0: the disc, the rectangle, the ring's gap, the stroke
   double luminance_cd_m2 = 0;  // emitted by the target, and by the ground around it
   double ground_cd_m2 = 0;
+  double light_nm = 0;  // wavelength of the emitted light, of one colour; 0: white
   double reflectance = 0;
   double ground_reflectance = 0;
 };

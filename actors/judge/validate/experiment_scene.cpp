@@ -18,6 +18,8 @@ constexpr double behind_eye_m = 0.03, behind_target_m = 0.005;
 constexpr double face_per_target = 2;
 /// Texels along the edge of a drawn face.
 constexpr int drawn_texels = 100;
+/// Half width of light of one colour where it has fallen to 1/e [nm].
+constexpr double line_width_nm = 6;
 /// Landolt's ring in units of its gap.
 constexpr double ring_outer = 2.5, ring_inner = 1.5, ring_half_gap = 0.5, ring_gaps = 5;
 /// Lamps in two strips along the room, which shine on the ceiling: their width [m], and their
@@ -86,6 +88,16 @@ void write_text(const ExperimentTarget& target, Sign& sign) {
   sign.face = std::move(face).value();
 }
 
+/// Light of nearly one wavelength [nm], as behind an interference filter; integral 1.
+Spectrum line_shape(double wavelength_nm) {
+  Spectrum out;
+  for (int i = 0; i < spectrum_samples; ++i) {
+    const double away = (Spectrum::wavelength_nm(i) - wavelength_nm) / line_width_nm;
+    out.value[static_cast<size_t>(i)] = std::exp(-away * away);
+  }
+  return out * (1 / out.integral());
+}
+
 Sign sign_of(const ExperimentTarget& target, double distance_m) {
   Sign sign;
   sign.name = "target";
@@ -101,6 +113,8 @@ Sign sign_of(const ExperimentTarget& target, double distance_m) {
   sign.face.legend = target_colour;
   sign.face.ground = ground_colour;
   sign.colours = white_and_green({target.luminance_cd_m2, target.ground_cd_m2});
+  if (target.light_nm > 0)
+    for (FaceColour& colour : sign.colours) colour.shape = line_shape(target.light_nm);
   sign.colours[target_colour].reflectance = Spectrum::constant(target.reflectance);
   sign.colours[ground_colour].reflectance = Spectrum::constant(target.ground_reflectance);
   sign.smallest_detail_m = detail_of(target);
@@ -138,7 +152,7 @@ void add_lamps(SceneDescription& out, const ExperimentScene& scene, double lumen
 }
 
 void add_surroundings(SceneDescription& out, const ExperimentScene& scene) {
-  out.run.max_bands = 1;
+  if (scene.smoke.angstrom == 0) out.run.max_bands = 1;  // all is grey
   out.run.voxels = false;
   if (scene.room.width_m > 0)
     add_room(out, scene);
@@ -147,8 +161,10 @@ void add_surroundings(SceneDescription& out, const ExperimentScene& scene) {
 }
 
 void add_smoke(SceneDescription& out, const ExperimentSmoke& medium) {
-  if (medium.extinction > 0)
-    add_homogeneous(out, smoke(medium.extinction, medium.albedo, medium.g));
+  if (!(medium.extinction > 0)) return;
+  SmokeOptics optics = smoke(medium.extinction, medium.albedo, medium.g);
+  optics.extinction.angstrom = medium.angstrom;
+  add_homogeneous(out, optics);
 }
 
 }  // namespace

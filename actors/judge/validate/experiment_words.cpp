@@ -99,6 +99,12 @@ slope of a fitted line with an intercept, and not an optical depth at which the 
 source was read third hand and does not say. So nothing was changed in the program. Its verdict
 counts a silhouette, but no glow without an edge.
 
+**Colour (T17).** Red is seen 1.33 times as far as blue in white smoke and 1.37 times in black
+smoke, and white between them. That is the quotient of the wavelengths, 1.36, by an extinction that
+is proportional to the inverse of the wavelength. In black smoke this is more than the 1.2 to 1.3 of
+the source, whose smoke of kerosene had an exponent of 0.6 to 0.85. Nothing of this was seen by
+people: the source computed it from extinctions as well.
+
 **Clear air (T18, T20).** Levels at the limit of acuity are 0.7 to 1.1. EXIT is read no farther than
 people identify it with confidence, but its stroke is called seen up to 150 m, where they identified
 the word up to 90 m. Its polarity and luminances had to be assumed.
@@ -147,7 +153,7 @@ const char* const experiments_objections = R"md(## What a lighting or fire scien
 ## What is not tested
 
 - Eyes of 65 years, or of any age but a young adult's.
-- Colours of signs, and of light.
+- Colours of signs, and of light, with people: T17 compares computed distances.
 - Signs in an unknown place, noticed or not; people who walk, who are under stress, or who have just
   left a bright room.
 - Irritation. The factor of Jin and Yamada (1985) is the program's own rule, so that a comparison

@@ -89,7 +89,7 @@ class DirectSum {
     std::vector<ArrivingLight> out;
     for (const Leaf& leaf : leaves_)
       for (size_t i = 0; i < leaf.count; ++i)
-        if (leaf.arriving[i].illuminance_lx > 0) out.push_back(leaf.arriving[i]);
+        if (leaf.arriving[i].clear_air_lx > 0) out.push_back(leaf.arriving[i]);
     return out;
   }
 
@@ -238,7 +238,7 @@ class DirectSum {
     out.light.illuminance_lx = in_media * per_lumen * cosine;
     out.light.clear_air_lx = clear * per_lumen * cosine;
     out.light.open_lx = open * per_lumen * cosine;
-    out.arriving = {index, direction, out.light.illuminance_lx};
+    out.arriving = {index, direction, out.light.illuminance_lx, out.light.clear_air_lx};
     if (cosine > 0)
       out.seen = !(solid > 0) ? Seen::hidden : min_solid < 1 ? Seen::dimmed : Seen::clear;
     else if (!(solid > 0))
@@ -371,7 +371,7 @@ class DirectSum {
     for (size_t i = 1; i + 1 < outline.size(); ++i) {
       const glm::dvec2 &a = outline[0], &b = outline[i], &c = outline[i + 1];
       const double area = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
-      ArrivingLight arriving{leaf.emitter, {}, 0};
+      ArrivingLight arriving{.emitter = leaf.emitter};
       // The midpoints of a triangle's sides integrate exactly up to the second power.
       for (const glm::dvec2& uv : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) {
         const PointLight p = look_at(leaf.emitter, cells.point_in(cell, uv, area * of_cell / 3),
@@ -379,6 +379,7 @@ class DirectSum {
         leaf.light += p.light;
         arriving.direction = p.arriving.direction;
         arriving.illuminance_lx += p.light.illuminance_lx;
+        arriving.clear_air_lx += p.light.clear_air_lx;
       }
       leaf.arriving[leaf.count++] = arriving;
     }

@@ -63,6 +63,7 @@ struct ArrivingLight {
   uint32_t emitter = 0;
   Vec3 direction{0};  // towards the emitter
   double illuminance_lx = 0;
+  double clear_air_lx = 0;  // illuminance without media
 };
 
 }  // namespace luxodus

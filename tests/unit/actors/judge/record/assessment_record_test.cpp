@@ -26,7 +26,10 @@ SightRecord sight() {
   out.reason = remark(RemarkId::irritant_smoke);
   out.from_gaze_deg = std::nan("");
   out.line_of_sight.visible_within_m = std::nan("");
-  out.seen = {true, look(), 0.25, {0.5, 4, 12}, {8, true}, {9, false}, {}, {}};
+  const ExperimentsRecord experiments{{MeanObserver::not_known, Untested::age},
+                                      {MeanObserver::between, Untested::nothing}};
+  out.seen = {true,        look(),    0.25,       {0.5, 4, 12}, {0.5, 2},
+              experiments, {8, true}, {9, false}, {},           {}};
   out.seen->other_eyes = {{"protan", SightVerdict::invisible, {}, {0.5, 0.25}}};
   out.seen->other_light = {false, SightVerdict::legible, {}, look()};
   return out;
@@ -172,6 +175,9 @@ TEST_CASE("keys, forms and their order in assessment.json stay as they are", "[j
   CHECK(text_at(json, "state/luminaires") == R"({"lit":1,"of":2,"lit_names":["lamp"]})");
   CHECK(text_at(json, "state/smoke/extinction") ==
         R"({"min":0.1,"max":0.2,"unit":"1/m","wavelength_nm":633.0})");
+  CHECK(text_at(json, "sights/0/eye_illuminance/direct") == R"({"value":0.5,"unit":"lx"})");
+  CHECK(text_at(json, "sights/0/experiments/read") ==
+        R"({"mean_observer":"not known","untested":"age"})");
   CHECK(text_at(json, "thresholds/0") ==
         R"({"sought":"distance","from":{"kind":"route","name":"way","text":"route \"way\""},)"
         R"("along":{"value":0.0,"unit":"m"},"eye_height":{"value":0.0,"unit":"m"},)"
