@@ -11,6 +11,7 @@
 #include <set>
 
 #include "actors/judge/assess/code_light.hpp"
+#include "actors/judge/assess/storey_floor.hpp"
 #include "actors/judge/design/wall_places.hpp"
 #include "actors/judge/design/wall_probe.hpp"
 #include "scenes/emergency/rule_limits.hpp"
@@ -300,14 +301,17 @@ struct MovableKind {
 };
 
 /// Numbers the pools of movable luminaires.
-std::vector<MovableKind> find_pools(const SceneDescription& scene,
+std::vector<MovableKind> find_pools(const SceneDescription& scene, const Building& building,
                                     std::vector<LuminaireCandidate>& existing) {
   std::vector<MovableKind> out;
+  std::vector<glm::dvec3> places;
+  for (const LuminaireCandidate& one : existing) places.push_back(one.position);
+  const auto floors = storey_floors(scene, building, places);
   for (size_t i = 0; i < existing.size(); ++i) {
     if (!existing[i].pool) continue;
     const Emitter& e = *std::find_if(scene.emitters.begin(), scene.emitters.end(),
                                      [&](const Emitter& o) { return o.name == existing[i].name; });
-    const auto floor = floor_below(scene, existing[i].position);
+    const auto& floor = floors[i];
     MovableKind kind{&e, floor, {static_cast<uint32_t>(out.size()), 0}};
     auto at = std::find_if(out.begin(), out.end(), [&](const MovableKind& other) {
       return same_light(e, *other.emitter) && e.circuit == other.emitter->circuit &&
@@ -603,7 +607,7 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   out.unused = unused_types(design, codes);
   add_existing(scene, design, out);
   const auto existing = static_cast<uint32_t>(out.all.size());
-  const std::vector<MovableKind> kinds = find_pools(scene, out.all);
+  const std::vector<MovableKind> kinds = find_pools(scene, *bare.value(), out.all);
   const auto any_moves = [&](bool on_wall) {
     return std::any_of(kinds.begin(), kinds.end(),
                        [&](const MovableKind& kind) { return kind.on_wall() == on_wall; });

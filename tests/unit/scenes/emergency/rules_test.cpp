@@ -120,15 +120,19 @@ TEST_CASE("each luminaire fails in turn, and the check names the worst", "[emerg
 TEST_CASE("wide routes are divided into strips of at most 2 m", "[emergency][rules]") {
   EscapeRoute route = corridor().routes.front();
   route.width_m = 5;
-  const RoutePoints points = points_of(route);
+  const auto of = [&] {
+    return points_of(route,
+                     [&](double aside_m) { return line_along(route, aside_m, route_grid_m); });
+  };
+  const RoutePoints points = of();
   double widest = 0;
-  for (const glm::dvec3& p : points.centre) widest = std::max(widest, std::abs(p.y));
+  for (const glm::dvec3& p : points.centre.places) widest = std::max(widest, std::abs(p.y));
   CHECK(widest == Approx(5.0 / 3));  // three strips, the middle one on the centre line
   double edge = 0;
-  for (const glm::dvec3& p : points.inner) edge = std::max(edge, std::abs(p.y));
+  for (const glm::dvec3& p : points.inner.places) edge = std::max(edge, std::abs(p.y));
   CHECK(edge == Approx(2.0));  // all but 0.5 m on each side
   route.width_m = 1.6;
-  for (const glm::dvec3& p : points_of(route).band) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
+  for (const glm::dvec3& p : of().band.places) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
 }
 
 TEST_CASE("a place without any light fails with infinite diversity, also without luminaires",
