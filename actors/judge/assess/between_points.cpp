@@ -86,6 +86,9 @@ class GapSearch {
       : light_(light), grid_(grid), lit_(lit) {
     for (const uint32_t number : emergency_luminaires(scene))
       lamps_.push_back({&scene.emitters[number], centre_of(scene.emitters[number])});
+    for (uint32_t i = 0; i < lamps_.size(); ++i)
+      if (std::any_of(lit.begin(), lit.end(), [&](const LitPoint& p) { return p.lux[i] > 0; }))
+        lighting_.push_back(i);
   }
 
   std::vector<LitPoint> found() && { return std::move(found_); }
@@ -113,6 +116,7 @@ class GapSearch {
   const CalculationGrid& grid_;
   const std::vector<LitPoint>& lit_;
   std::vector<Lamp> lamps_;
+  std::vector<uint32_t> lighting_;  // those of them that light any point of the grid
   std::vector<LitPoint> found_;
 };
 
@@ -133,7 +137,7 @@ double GapSearch::extreme_of(Extreme extreme, const LuminaireFactors& factors) c
 std::vector<GapLuminaire> GapSearch::luminaires_of(const GridGap& gap,
                                                    const LuminaireFactors& factors) const {
   std::vector<GapLuminaire> out;
-  for (size_t i = 0; i < lamps_.size(); ++i) {
+  for (const uint32_t i : lighting_) {
     if (!(factors[i] > 0)) continue;
     const bool lights = std::any_of(gap.corners.begin(), gap.corners.end(),
                                     [&](uint32_t corner) { return lit_[corner].lux[i] > 0; });
@@ -270,14 +274,22 @@ void GapSearch::look_below_luminaires() {
     }
     return best;
   };
+  // A floor slab hides those of other storeys.
+  const auto may_light = [&](uint32_t lamp, const glm::dvec3& place) {
+    const auto all = light_.in_question(place + glm::dvec3(0, 0, floor_plane_m));
+    return std::binary_search(all.begin(), all.end(), lamp);
+  };
   std::vector<glm::dvec3> places;
-  for (const Lamp& lamp : lamps_) {
-    const glm::dvec3 &from = lamp.centre, aim = -lamp.emitter->frame.axes[2];
+  for (uint32_t i = 0; i < lamps_.size(); ++i) {
+    const glm::dvec3 &from = lamps_[i].centre, aim = -lamps_[i].emitter->frame.axes[2];
     if (from.z <= low.z) continue;
     std::vector<glm::dvec2> targets{glm::dvec2(from)};
     if (aim.z < 0) targets.emplace_back(from + aim * ((low.z - from.z) / aim.z));
-    for (const glm::dvec2& target : targets)
-      if (is_over(target)) places.push_back(nearest(target));
+    for (const glm::dvec2& target : targets) {
+      if (!is_over(target)) continue;
+      const glm::dvec3 place = nearest(target);
+      if (may_light(i, place)) places.push_back(place);
+    }
   }
   look_at(places);
 }

@@ -75,6 +75,8 @@ class CodeLight {
   /// area.
   std::optional<double> floor_under(const glm::dvec3& place) const;
 
+  /// Luminaires that no floor slab certainly hides from a place, ascending.
+  std::vector<uint32_t> in_question(const glm::dvec3& place) const;
   const Building& building() const { return building_; }
 
  private:
@@ -89,8 +91,6 @@ class CodeLight {
   bool touches_a_surface(const GeometryAccess& access, const glm::dvec3& place) const;
   /// A grid without its points in furniture and walls, where nobody walks or works.
   CalculationGrid without_bodies(const CalculationGrid& grid) const;
-  /// Luminaires that no floor slab certainly hides from a place, ascending.
-  std::vector<uint32_t> in_question(const glm::dvec3& place) const;
   /// The first luminaire in the place of this one.
   uint32_t leader_of(uint32_t luminaire) const {
     while (!leads(luminaire)) --luminaire;

@@ -67,12 +67,14 @@ void add_over_route(const EscapeRoute& route, double spacing_m, std::vector<Spot
   }
 }
 
-std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& design) {
+std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& design,
+                           const Building& building) {
   std::vector<Spot> out;
   if (!design.places.empty()) {
-    for (const glm::dvec3& p : design.places) {
-      const auto floor = floor_below(scene, p);
-      out.push_back({{p.x, p.y, floor.value_or(p.z)}, 0, p.z});
+    const auto floors = storey_floors(scene, building, design.places);
+    for (size_t i = 0; i < floors.size(); ++i) {
+      const glm::dvec3& p = design.places[i];
+      out.push_back({{p.x, p.y, floors[i].value_or(p.z)}, 0, p.z});
     }
     return out;
   }
@@ -128,7 +130,7 @@ class PlaceFinder {
 
   /// Spots over which luminaires can hang, each at its mounting height.
   std::vector<Spot> find(LeftOut& left_out) const {
-    const std::vector<Spot> spots = spots_of(scene_, design_);
+    const std::vector<Spot> spots = spots_of(scene_, design_, bare_);
     enum class Fate : char { good, no_ceiling, in_body, near_wall };
     std::vector<Fate> fates(spots.size(), Fate::good);
     std::vector<double> heights(spots.size(), 0);
