@@ -29,17 +29,13 @@ std::vector<LegPoints> add_line(const GridLine& line, std::vector<glm::dvec3>& p
 }
 
 void add_gaps_along(const GridLeg& leg, const LegPoints& points, std::vector<GridGap>& gaps) {
-  for (size_t k = 0; k < leg.half_depths.size(); ++k)
-    gaps.push_back({leg.places[k] - leg.half_depths[k],
-                    2.0 * leg.half_depths[k],
-                    glm::dvec3(0),
-                    {points[k], points[k], points[k], points[k]}});
-  if (!leg.half_depths.empty()) return;
-  for (size_t k = 0; k + 1 < leg.places.size(); ++k)
+  for (size_t k = 0; k + 1 < leg.places.size(); ++k) {
+    if (leg.is_stairs() && leg.riser_follows[k] != 0) continue;
     gaps.push_back({leg.places[k],
                     leg.places[k + 1] - leg.places[k],
                     glm::dvec3(0),
                     {points[k], points[k + 1], points[k + 1], points[k + 1]}});
+  }
 }
 
 void add_gaps_between(const GridLeg& left, const LegPoints& points, const GridLeg& right,
@@ -77,8 +73,7 @@ CalculationGrid grid_of(const std::vector<GridLine>& lines, bool joined) {
   const auto is_joined = [&](size_t line, size_t leg) {
     if (!joined || line + 1 >= lines.size()) return false;
     const GridLeg &here = lines[line][leg], &beside = lines[line + 1][leg];
-    return here.half_depths.empty() && beside.half_depths.empty() &&
-           here.places.size() == beside.places.size();
+    return !here.is_stairs() && !beside.is_stairs() && here.places.size() == beside.places.size();
   };
   for (size_t j = 0; j < lines.size(); ++j)
     for (size_t i = 0; i < lines[j].size(); ++i) {

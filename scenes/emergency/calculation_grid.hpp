@@ -30,9 +30,10 @@ struct CalculationGrid {
 /// Points on one line over one leg of a route.
 struct GridLeg {
   std::vector<glm::dvec3> places;
-  /// On stairs, for each place half of the depth of floor that it stands for, along the leg: from
-  /// there to the next place there is a riser. Else empty: the line goes on between places.
-  std::vector<glm::dvec3> half_depths;
+  /// On stairs, for each place, whether a riser follows before the next one; else empty.
+  std::vector<char> riser_follows;
+
+  bool is_stairs() const { return !riser_follows.empty(); }
 };
 /// Points on a line that is `aside_m` to the left of a route's centre line, by leg.
 using GridLine = std::vector<GridLeg>;

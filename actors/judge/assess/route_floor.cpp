@@ -24,6 +24,9 @@ constexpr int max_rays = 20'000;
 constexpr double same_tread_m = 0.001, ramp_slope = 0.25;
 /// A narrower part of the floor is no tread but a nosing or an edge [m].
 constexpr double narrowest_tread_m = 0.05;
+/// A tread of less depth has one point, in its middle: nearer to a riser, light from ahead is cut
+/// off [m].
+constexpr double ordinary_tread_m = 0.4;
 /// A lower step is none but an edge of a finish [m].
 constexpr double riser_m = 0.02;
 /// A line this close to its floor is on it [m].
@@ -55,7 +58,7 @@ std::optional<double> floor_near(const Building& building, const GeometryAccess&
 /// Moves the first or the last point of a leg off the riser at which the stairs of its neighbour
 /// begin. `tread`: the nearest one of the stairs.
 void end_before_riser(GridLeg& leg, bool at_first, const glm::dvec3& tread, const GridLeg& stairs) {
-  if (!leg.half_depths.empty() || stairs.half_depths.empty()) return;
+  if (leg.is_stairs() || !stairs.is_stairs()) return;
   glm::dvec3& end = at_first ? leg.places.front() : leg.places.back();
   const glm::dvec3& next = at_first ? leg.places[1] : leg.places[leg.places.size() - 2];
   if (tread.z > end.z + riser_m) end = (end + next) / 2.0;
@@ -137,13 +140,12 @@ GridLeg RouteFloor::leg(const glm::dvec3& from, const glm::dvec3& to, double asi
   }
   out.places.clear();
   for (const auto& [first, end] : treads) {
-    // Without the outermost rays, which may be beyond the edge by half a step.
-    const double low = static_cast<double>(first + 1) * floor.step_m;
-    const double depth = static_cast<double>(end - first - 2) * floor.step_m;
-    const int n = pieces_of(depth, spacing_m);
+    const double low = static_cast<double>(first) * floor.step_m;
+    const double depth = static_cast<double>(end - first) * floor.step_m;
+    const int n = depth < ordinary_tread_m ? 1 : pieces_of(depth, spacing_m);
     for (int k = 0; k < n; ++k) {
       out.places.push_back(floor.at(low + depth * (k + 0.5) / n));
-      out.half_depths.push_back(floor.way * (depth / n / 2));
+      out.riser_follows.push_back(k + 1 == n ? 1 : 0);
     }
   }
   return out;

@@ -26,7 +26,7 @@ class RouteFloor {
   explicit RouteFloor(const Building& building) : building_(building) {}
 
   /// Points at most `spacing_m` apart on a line beside a route's centre line. On a leg that climbs
-  /// steps they stand on the treads, in the middle of equal parts of their depth. On other legs
+  /// steps they stand in the middle of each tread, or of equal parts of a landing. On other legs
   /// they are those of line_along, on the floor where a leg climbs and its line misses the floor.
   /// A level leg that ends at a riser has its last point half a spacing before it.
   GridLine line(const EscapeRoute& route, double aside_m, double spacing_m) const;
