@@ -44,6 +44,7 @@ enum class RuleId {
   E10g,
   E6k,
   E12,
+  E12s,
   E13,
   E14,
   S1,

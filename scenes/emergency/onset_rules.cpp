@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "scenes/emergency/extremes.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
@@ -19,8 +20,8 @@ namespace {
 
 /// Share of its flux that each luminaire gives after this time: 0 without a stated onset, and once
 /// its supply is exhausted.
-std::vector<double> shares_after(const SceneDescription& scene, double seconds) {
-  std::vector<double> out;
+LuminaireFactors shares_after(const SceneDescription& scene, double seconds) {
+  LuminaireFactors out;
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
     out.push_back(e.onset.empty() ? 0 : emergency_share(e, seconds));
@@ -49,20 +50,12 @@ bool none_states(const SceneDescription& scene) {
 }
 
 Check in_time(const Rule& rule, const SceneDescription& scene, const Subject& subject,
-              const std::vector<LitPoint>& points, double seconds, double limit_lx) {
-  const std::vector<double> shares = shares_after(scene, seconds);
-  double least = std::numeric_limits<double>::infinity();
-  glm::dvec3 darkest(0);
-  for (const LitPoint& point : points) {
-    const double lux = std::inner_product(point.lux.begin(), point.lux.end(), shares.begin(), 0.0);
-    if (lux >= least) continue;
-    least = lux;
-    darkest = point.place;
-  }
-  if (points.empty()) return not_assessed(rule, subject, remark(RemarkId::nowhere_to_assess));
-  if (least < limit_lx)
+              const JudgedPoints& points, double seconds, double limit_lx) {
+  if (points.grid.empty()) return not_assessed(rule, subject, remark(RemarkId::nowhere_to_assess));
+  const SpreadInterval spread = spread_of(points, shares_after(scene, seconds));
+  if (spread.all.least < limit_lx)
     if (auto unsaid = silent(scene)) return not_assessed(rule, subject, *std::move(unsaid));
-  Check check = judged(rule, subject, least, Limit{limit_lx}, darkest);
+  Check check = judged_between(rule, subject, spread, least_of, Limit{limit_lx});
   check.conditions = {remark(RemarkId::after_mains_failure, seconds)};
   return check;
 }
@@ -70,7 +63,7 @@ Check in_time(const Rule& rule, const SceneDescription& scene, const Subject& su
 }  // namespace
 
 std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject& subject,
-                                   const std::vector<LitPoint>& points, double demanded_lx,
+                                   const JudgedPoints& points, double demanded_lx,
                                    const CodeChoice& codes) {
   if (none_states(scene)) return {};
   std::vector<Check> out;
@@ -88,10 +81,37 @@ std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject&
 }
 
 std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const Subject& subject,
-                                        const std::vector<LitPoint>& plane, double demanded_lx,
+                                        const JudgedPoints& plane, double demanded_lx,
                                         const CodeChoice& codes) {
   if (none_states(scene) || !codes.european()) return {};
   return {in_time(rule_of(RuleId::E10t, codes), scene, subject, plane, task_s, demanded_lx)};
+}
+
+std::vector<LuminaireFactors> factors_of_checks(const SceneDescription& scene,
+                                                const std::vector<CodeChoice>& codes,
+                                                const FedLuminaires& fed) {
+  const auto luminaires = emergency_luminaires(scene);
+  std::vector<LuminaireFactors> out;
+  const auto add = [&](LuminaireFactors factors) {
+    const double most = factors.empty() ? 0 : *std::max_element(factors.begin(), factors.end());
+    if (!(most > 0)) return;
+    for (double& factor : factors) factor /= most;
+    if (std::find(out.begin(), out.end(), factors) == out.end()) out.push_back(std::move(factors));
+  };
+  LuminaireFactors now(luminaires.size(), 1.0), as_new = now;
+  for (size_t i = 0; i < std::min(now.size(), fed.size()); ++i) now[i] = fed[i] ? 1 : 0;
+  for (size_t i = 0; i < as_new.size(); ++i)
+    as_new[i] = 1 / scene.emitters[luminaires[i]].emergency_ageing;
+  add(std::move(now));
+  for (const CodeChoice& one : codes) {
+    if (!one.european()) add(as_new);
+    if (none_states(scene)) continue;
+    for (const double seconds : {half_s, full_s, task_s})
+      if (one.european()) add(shares_after(scene, seconds));
+    if (!one.european()) add(shares_after(scene, nfpa_s));
+    if (one.has(Deviation::de_asr)) add(shares_after(scene, german_s));
+  }
+  return out;
 }
 
 namespace {

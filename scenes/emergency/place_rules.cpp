@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scenes/emergency/far_field.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
@@ -16,94 +17,12 @@ using namespace rule_limit;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
+constexpr int directions_azimuth = 72, directions_polar = 90;
 
 double glare_limit(double height_m) {
   for (const GlareStep& step : glare_steps)
     if (height_m < step.below_m) return step.candela;
   return max_glare_cd;
-}
-
-/// Share of its light per steradian that a surface point emits at an angle to its normal.
-double density(const Emitter& e, double cosine) {
-  const double c = std::max(0.0, cosine);
-  switch (e.distribution) {
-    case Distribution::isotropic:
-      return 1 / (4 * pi);
-    case Distribution::lambertian:
-      return c / pi;
-    case Distribution::cosine_power:
-      return (e.cosine_power + 1) / (2 * pi) * std::pow(c, e.cosine_power);
-    case Distribution::spot:
-    case Distribution::collimated:
-    case Distribution::web:
-      return 0;
-  }
-  return 0;
-}
-
-/// A mesh: over all its triangles, as if none hid another.
-double mesh_density(const Emitter& e, const glm::dvec3& world) {
-  double area = 0, sum = 0;
-  for (const auto& t : e.mesh.triangles) {
-    const glm::dvec3 a(e.mesh.positions[t[0]]), b(e.mesh.positions[t[1]]),
-        c(e.mesh.positions[t[2]]);
-    const glm::dvec3 doubled = glm::cross(b - a, c - a);
-    const double size = glm::length(doubled);
-    if (!(size > 0)) continue;
-    area += size;
-    sum += size * density(e, glm::dot(doubled / size, world));
-  }
-  return area > 0 ? sum / area : 0;
-}
-
-/// Side of a cylinder along local x: mean over its circumference.
-double tube_density(const Emitter& e, const glm::dvec3& local) {
-  const double aside = std::sqrt(std::max(0.0, 1 - local.x * local.x));
-  double sum = 0;
-  for (int i = 0; i < tube_steps; ++i)
-    sum += density(e, aside * std::cos(2 * pi * (i + 0.5) / tube_steps));
-  return sum / tube_steps;
-}
-
-/// A sphere: the same in all directions.
-double sphere_density() {
-  return 1 / (4 * pi);
-}
-
-/// Far-field intensity [cd] per lumen in a direction [scene coordinates]. Requires: neither a spot
-/// nor a collimated emitter.
-double intensity_per_lm(const Emitter& e, const glm::dvec3& world) {
-  const glm::dvec3 local = glm::transpose(e.frame.axes) * world;
-  if (e.distribution == Distribution::web) return e.web->pdf(local);
-  switch (e.shape) {
-    case EmitterShape::point:
-    case EmitterShape::rectangle:
-    case EmitterShape::disc:
-      return density(e, -local.z);
-    case EmitterShape::sphere:
-      return sphere_density();
-    case EmitterShape::tube:
-      return tube_density(e, local);
-    case EmitterShape::mesh:
-      return mesh_density(e, world);
-  }
-  return 0;
-}
-
-/// Intensity of a spot at an angle from its axis: full within the inner angle, zero outside the
-/// outer one, between them the smooth step in 1 - cos that the tracer samples.
-double spot_per_lm(const Emitter& e, double off_axis_deg) {
-  const auto one_minus_cos = [](double degrees) {
-    return 2 * std::pow(std::sin(degrees * pi / 360), 2);
-  };
-  const double inner = one_minus_cos(e.spot_inner_deg), outer = one_minus_cos(e.spot_outer_deg);
-  const double x = one_minus_cos(off_axis_deg);
-  const double full = 1 / (pi * (inner + outer));
-  if (x <= inner) return full;
-  if (x >= outer) return 0;
-  const double t = (outer - x) / (outer - inner);
-  return full * t * t * (3 - 2 * t);
 }
 
 /// Whether a luminaire is over a level escape route, where glare counts only in the zone of E8.
@@ -232,18 +151,19 @@ std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene) {
 
 Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subject& subject,
                      const glm::dvec3& place, bool above, const LinesOfSight& seen,
-                     const FedLuminaires& fed) {
+                     const FedLuminaires& fed, const StoreyFloors& floors) {
   constexpr double none = std::numeric_limits<double>::infinity();
   struct Near {
     double distance_m = none;
     std::string name;
   } open, hidden, upstairs, exhausted;
-  const auto floor = floor_below(scene, place);
+  const bool by_rays = !floors.luminaires.empty();
+  const auto floor = by_rays ? floors.place : floor_below(scene, place);
   const auto luminaires = emergency_luminaires(scene);
   for (size_t i = 0; i < luminaires.size(); ++i) {
     const Emitter& e = scene.emitters[luminaires[i]];
     const double distance = in_plan(e.frame.origin, place);
-    const auto its_floor = floor_below(scene, e.frame.origin);
+    const auto its_floor = by_rays ? floors.luminaires[i] : floor_below(scene, e.frame.origin);
     const bool here = !floor || !its_floor || std::abs(*floor - *its_floor) < storey_m;
     Near& nearest = !here                        ? upstairs
                     : !(fed.empty() || fed[i])   ? exhausted
@@ -271,11 +191,12 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subj
 
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
                                       const LinesOfSight& seen, std::optional<double> vertical_lx,
-                                      const CodeChoice& codes, const FedLuminaires& fed) {
+                                      const CodeChoice& codes, const FedLuminaires& fed,
+                                      const StoreyFloors& floors) {
   if (!codes.european()) return {};
   const Subject subject = subject_of(point);
-  std::vector<Check> out = {
-      luminaire_near(rule_of(RuleId::E12, codes), scene, subject, point.position, true, seen, fed)};
+  std::vector<Check> out = {luminaire_near(rule_of(RuleId::E12, codes), scene, subject,
+                                           point.position, true, seen, fed, floors)};
   if (!is_equipment(point.kind)) return out;
   out.push_back(
       vertical_lx

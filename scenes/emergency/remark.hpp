@@ -26,9 +26,11 @@ enum class RemarkId {
   smoke_may_occur,
   no_smoke_expected,
   contrast_of_means,
+  light_of_one_on_treads,
   // Reasons of checks
   beyond_measure,
   no_value,
+  value_on_grid,
   keeps_unread_limit,
   breaks_unread_limit,
   no_emergency_luminaire,

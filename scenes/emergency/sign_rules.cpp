@@ -203,11 +203,11 @@ std::vector<Check> colour_checks(const SceneDescription& scene, const Sign& sign
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
                              const Subject& subject, double lux, const LinesOfSight& seen,
                              const FloorUnder& floor_under, const FedLuminaires& fed,
-                             const CodeChoice& codes) {
+                             const StoreyFloors& floors, const CodeChoice& codes) {
   std::vector<Check> out = colour_checks(scene, sign, subject, lux, codes);
   if (sign.lighting == SignLighting::external)
     out.push_back(luminaire_near(rule_of(RuleId::S6l, codes), scene, subject, sign.frame.origin,
-                                 false, seen, fed));
+                                 false, seen, fed, floors));
   for (Check& check : mounting(scene, sign, subject, floor_under, codes))
     out.push_back(std::move(check));
   return out;
@@ -217,10 +217,12 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
 
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double lux,
                                   const LinesOfSight& seen, const CodeChoice& codes,
-                                  const FloorUnder& floor_under, const FedLuminaires& fed) {
+                                  const FloorUnder& floor_under, const FedLuminaires& fed,
+                                  const StoreyFloors& floors) {
   const Subject subject = subject_of(sign);
   std::vector<Check> out;
-  if (codes.european()) return en_checks(scene, sign, subject, lux, seen, floor_under, fed, codes);
+  if (codes.european())
+    return en_checks(scene, sign, subject, lux, seen, floor_under, fed, floors, codes);
   if (sign.lighting == SignLighting::external)
     out.push_back(judged(rule_of(RuleId::N6, codes), subject, lux, sign.frame.origin));
   if (sign.letters) {

@@ -13,10 +13,6 @@ constexpr double level_within_m = 0.01;
 /// A point this close to an edge lies on it [m].
 constexpr double on_edge_m = 1e-6;
 
-int pieces(double length, double spacing) {
-  return std::max(1, static_cast<int>(std::ceil(length / spacing * (1 - 1e-9))));
-}
-
 /// Horizontal unit vector to the left of a leg.
 glm::dvec3 left_of(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec2 way = glm::normalize(glm::dvec2(to - from));
@@ -76,22 +72,33 @@ bool is_level(const EscapeRoute& route) {
   });
 }
 
+int pieces_of(double length_m, double spacing_m) {
+  return std::max(1, static_cast<int>(std::ceil(length_m / spacing_m * (1 - 1e-9))));
+}
+
+std::vector<glm::dvec3> along_leg(const glm::dvec3& from, const glm::dvec3& to, double aside_m,
+                                  double spacing_m) {
+  const glm::dvec3 aside = left_of(from, to) * aside_m;
+  const int n = pieces_of(glm::length(to - from), spacing_m);
+  std::vector<glm::dvec3> out;
+  for (int k = 0; k <= n; ++k)
+    out.push_back(glm::mix(from, to, static_cast<double>(k) / n) + aside);
+  return out;
+}
+
 std::vector<glm::dvec3> along(const EscapeRoute& route, double aside_m, double spacing_m) {
   std::vector<glm::dvec3> out;
   for (size_t i = 1; i < route.path.size(); ++i) {
-    const glm::dvec3 from = route.path[i - 1], to = route.path[i];
-    const glm::dvec3 aside = left_of(from, to) * aside_m;
-    const int n = pieces(glm::length(to - from), spacing_m);
+    const auto leg = along_leg(route.path[i - 1], route.path[i], aside_m, spacing_m);
     // A leg on the centre line shares its first point with the end of the leg before.
-    for (int k = i > 1 && aside_m == 0 ? 1 : 0; k <= n; ++k)
-      out.push_back(glm::mix(from, to, static_cast<double>(k) / n) + aside);
+    out.insert(out.end(), leg.begin() + (i > 1 && aside_m == 0 ? 1 : 0), leg.end());
   }
   return out;
 }
 
 std::vector<glm::dvec3> within(const EscapeRoute& route, double half_width_m, double spacing_m) {
   std::vector<glm::dvec3> out;
-  const int n = pieces(half_width_m, spacing_m);
+  const int n = pieces_of(half_width_m, spacing_m);
   for (int k = -n; k <= n; ++k) {
     const auto line = along(route, half_width_m * k / n, spacing_m);
     out.insert(out.end(), line.begin(), line.end());
@@ -108,24 +115,32 @@ PlanBox plan_box_of(const AssessedArea& area) {
   return out;
 }
 
+AreaLattice lattice_of(const AssessedArea& area, double border_m, double spacing_m) {
+  const auto [low, high] = plan_box_of(area);
+  AreaLattice out{low + border_m, high - border_m, 0, 0};
+  const glm::dvec2 size = out.high - out.low;
+  if (size.x < 0 || size.y < 0) return out;
+  out.columns = pieces_of(size.x, spacing_m);
+  out.rows = pieces_of(size.y, spacing_m);
+  return out;
+}
+
 std::vector<glm::dvec3> within(const AssessedArea& area, double border_m, double spacing_m) {
-  auto [low, high] = plan_box_of(area);
-  low += border_m;
-  high -= border_m;
   std::vector<glm::dvec3> out;
-  if (low.x > high.x || low.y > high.y) return out;
-  const int nx = pieces(high.x - low.x, spacing_m), ny = pieces(high.y - low.y, spacing_m);
-  for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i) {
-      const glm::dvec2 p =
-          low + (high - low) * glm::dvec2(static_cast<double>(i) / nx, static_cast<double>(j) / ny);
-      const bool inside =
-          border_m > 0 ? lies_in(p, area.outline) &&
-                             distance_to_outline(p, area.outline) >= border_m * (1 - 1e-9)
-                       : lies_in(p, area.outline) || distance_to_outline(p, area.outline) < 1e-9;
-      if (inside) out.emplace_back(p, area.z_m);
+  const AreaLattice lattice = lattice_of(area, border_m, spacing_m);
+  if (lattice.columns == 0) return out;
+  for (int j = 0; j <= lattice.rows; ++j)
+    for (int i = 0; i <= lattice.columns; ++i) {
+      const glm::dvec2 p = lattice.place(i, j);
+      if (is_within(area, p, border_m)) out.emplace_back(p, area.z_m);
     }
   return out;
+}
+
+bool is_within(const AssessedArea& area, const glm::dvec2& place, double border_m) {
+  const bool inside = lies_in(place, area.outline);
+  const double edge_m = distance_to_outline(place, area.outline);
+  return border_m > 0 ? inside && edge_m >= border_m * (1 - 1e-9) : inside || edge_m < 1e-9;
 }
 
 std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m) {
@@ -134,7 +149,7 @@ std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m) {
   for (size_t i = 1; i < route.path.size(); ++i) {
     const glm::dvec3 from = route.path[i - 1], way = route.path[i] - from;
     const double length = glm::length(way);
-    const int n = pieces(length, spacing_m);
+    const int n = pieces_of(length, spacing_m);
     for (int k = 0; k < n; ++k) {
       const double share = static_cast<double>(k) / n;
       out.push_back({from + way * share, way / length, before + length * share});

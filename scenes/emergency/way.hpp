@@ -21,11 +21,31 @@ bool is_level(const EscapeRoute& route);
 /// to the right), leg by leg, with the ends of each leg.
 std::vector<glm::dvec3> along(const EscapeRoute& route, double aside_m, double spacing_m);
 
+/// The parts of one of these lines that belong to one leg, with both its ends.
+std::vector<glm::dvec3> along_leg(const glm::dvec3& from, const glm::dvec3& to, double aside_m,
+                                  double spacing_m);
+
+/// Number of equal pieces of a length, each at most `spacing_m` long.
+int pieces_of(double length_m, double spacing_m);
+
 /// Points at most `spacing_m` apart, across and along, within `half_width_m` of the centre line.
 std::vector<glm::dvec3> within(const EscapeRoute& route, double half_width_m, double spacing_m);
 
-/// Points of a square grid over an area, at least `border_m` away from its edge.
+/// A square grid over the box around an area, at least `border_m` away from the edges of the box.
+struct AreaLattice {
+  glm::dvec2 low{0}, high{0};
+  int columns = 0, rows = 0;  // steps between its points; 0 where the box is too narrow
+  glm::dvec2 place(int column, int row) const {
+    return low + (high - low) * glm::dvec2(static_cast<double>(column) / columns,
+                                           static_cast<double>(row) / rows);
+  }
+};
+AreaLattice lattice_of(const AssessedArea& area, double border_m, double spacing_m);
+
+/// Points of this grid in the area, at least `border_m` away from its edge.
 std::vector<glm::dvec3> within(const AssessedArea& area, double border_m, double spacing_m);
+/// Whether a place lies in an area, at least `border_m` away from its edge.
+bool is_within(const AssessedArea& area, const glm::dvec2& place, double border_m);
 
 /// The box around an area, seen from above [m].
 struct PlanBox {

@@ -50,21 +50,12 @@ py::object with_attributes(const py::dict& named) {
   return py::module_::import("types").attr("SimpleNamespace")(**named);
 }
 
-std::string attribute_name(const std::string& array_name) {
-  std::string out;
-  for (const char c : array_name) {
-    if (c == '[' || c == ']') continue;
-    out += c == ' ' || c == '/' ? '_' : c;
-  }
-  return out;
-}
-
 void add_arrays(py::dict& to, const std::vector<VtkArray>& arrays,
                 const std::vector<py::ssize_t>& shape) {
   for (const VtkArray& array : arrays) {
     std::vector<py::ssize_t> whole = shape;
     if (array.components > 1) whole.push_back(array.components);
-    to[py::str(attribute_name(array.name))] = std::visit(
+    to[py::str(array.name)] = std::visit(
         [&](const auto& values) -> py::object { return array_of(values, whole); }, array.values);
   }
 }

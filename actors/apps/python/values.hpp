@@ -33,9 +33,6 @@ pybind11::array_t<double> places_of(const std::vector<glm::dvec3>& places,
 /// Named values as attributes: types.SimpleNamespace.
 pybind11::object with_attributes(const pybind11::dict& named);
 
-/// Makes a Python name of "incident_front standard error [lx]": incident_front_standard_error_lx.
-std::string attribute_name(const std::string& array_name);
-
 /// Adds each array of a file for ParaView as an attribute. `shape`: of its cells; an array of
 /// several components has a further axis.
 void add_arrays(pybind11::dict& to, const std::vector<VtkArray>& arrays,

@@ -111,6 +111,8 @@ struct Assessment {
   std::vector<SweepRow> sweep;
   std::optional<OverTime> over_time;
   std::vector<PlanLevel> levels;  // from below; at least one
+  /// Heights of the floors of their storeys, by luminaire and sign of the scene [m].
+  std::vector<std::optional<double>> luminaire_floors, sign_floors;
   std::vector<StateWarning> warnings;
   std::vector<Finding> findings;  // of the inspection; its warnings are in `warnings` as well
   int64_t paths = 0;              // number of paths from eyes in all rounds

@@ -9,6 +9,7 @@
 #include "actors/judge/assess/plan_cut.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "runtime/core/base64.hpp"
+#include "scenes/emergency/far_field.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/formats/images/logo.hpp"
 #include "scenes/formats/images/page_picture.hpp"
@@ -52,7 +53,8 @@ LuminaireRecord luminaire_of(const Emitter& e) {
                       .product = e.product,
                       .shape = word_of(e.shape),
                       .distribution = word_of(e.distribution),
-                      .position = e.frame.origin,
+                      .position = centre_of(e),
+                      .floor_m = {},
                       .circuit = e.circuit,
                       .operation = !emergency         ? "mains"
                                    : e.mains_flux > 0 ? "maintained"
@@ -66,11 +68,6 @@ LuminaireRecord luminaire_of(const Emitter& e) {
                       .opening_m = {},
                       .onset = e.onset};
   if (e.opening_m != glm::dvec3(0)) out.opening_m = e.opening_m;
-  if (e.shape == EmitterShape::mesh && !e.mesh.positions.empty()) {
-    glm::dvec3 sum(0);
-    for (const glm::dvec3& p : e.mesh.positions) sum += p;
-    out.position = sum / static_cast<double>(e.mesh.positions.size());
-  }
   return out;
 }
 
@@ -82,6 +79,7 @@ std::string name_at(const Sign& sign, ColourIndex colour) {
 SignRecord sign_of(const Sign& s) {
   SignRecord out{.name = s.name,
                  .position = s.frame.origin,
+                 .floor_m = {},
                  .facing = s.frame.axes[2],
                  .file = s.file,
                  .text = s.text,
@@ -228,6 +226,10 @@ void add_inputs(const SceneDescription& scene, const Assessment& assessment,
   record.scenario = scenario_of(scene, assessment.state.scenario);
   for (const Emitter& emitter : scene.emitters) record.luminaires.push_back(luminaire_of(emitter));
   for (const Sign& sign : scene.signs) record.signs.push_back(sign_of(sign));
+  for (size_t i = 0; i < assessment.luminaire_floors.size(); ++i)
+    record.luminaires[i].floor_m = assessment.luminaire_floors[i];
+  for (size_t i = 0; i < assessment.sign_floors.size(); ++i)
+    record.signs[i].floor_m = assessment.sign_floors[i];
   record.places = places_of(scene);
   record.materials = materials_of(scene);
   for (const Medium& medium : scene.media) record.media.push_back(medium_of(medium));

@@ -80,6 +80,10 @@ struct IssueSubject {
   std::string guid;
   std::optional<glm::dvec3> place;
   std::optional<glm::dvec3> front;  // direction from which it is seen
+  std::optional<double> floor_m{};  // of its storey, where that is known
+
+  /// The place on this floor, or the place itself. Requires: a place.
+  glm::dvec3 foot() const { return {place->x, place->y, floor_m.value_or(place->z)}; }
 };
 
 template <class Row>
@@ -125,11 +129,11 @@ IssueSubject named_subject(const AssessmentRecord& a, const Subject& subject) {
   switch (subject.kind) {
     case SubjectKind::luminaire:
       if (const LuminaireRecord* one = row_named(a.luminaires, subject.name))
-        return {one->ifc_guid, one->position, std::nullopt};
+        return {one->ifc_guid, one->position, std::nullopt, one->floor_m};
       break;
     case SubjectKind::sign:
       if (const SignRecord* one = row_named(a.signs, subject.name))
-        return {one->ifc_guid, one->position, one->facing};
+        return {one->ifc_guid, one->position, one->facing, one->floor_m};
       break;
     case SubjectKind::emphasis:
       if (const EmphasisRecord* one = row_named(a.places.emphasis, subject.name))
@@ -155,7 +159,7 @@ IssueSubject subject_of(const AssessmentRecord& a, const Check& check) {
   IssueSubject out = named_subject(a, check.subject);
   if (check.worst) out.place = *check.worst;
   if (out.guid.empty() && out.place)
-    if (const AreaRecord* area = area_below(a, *out.place, true)) out.guid = area->ifc_guid;
+    if (const AreaRecord* area = area_below(a, out.foot(), true)) out.guid = area->ifc_guid;
   return out;
 }
 
@@ -165,7 +169,7 @@ IssueSubject subject_of(const AssessmentRecord& a, const Check& check) {
 glm::dvec3 eye_for(const AssessmentRecord& a, const IssueSubject& subject) {
   const glm::dvec3 at = *subject.place;
   if (subject.front) return at + camera_distance_m * *subject.front;
-  const AreaRecord* area = area_below(a, at, false);
+  const AreaRecord* area = area_below(a, subject.foot(), false);
   glm::dvec3 way(1, 0, 0);
   double far = camera_distance_m;
   if (area != nullptr) {
@@ -179,7 +183,7 @@ glm::dvec3 eye_for(const AssessmentRecord& a, const IssueSubject& subject) {
     }
   }
   const glm::dvec3 eye = at + far * way;
-  return {eye.x, eye.y, floor_below(a, at) + camera_height_m};
+  return {eye.x, eye.y, floor_below(a, subject.foot()) + camera_height_m};
 }
 
 std::string vector_xml(const char* name, const glm::dvec3& v) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 
+#include "actors/judge/assess/storey_floor.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/light/signs/onset.hpp"
 #include "scenes/light/signs/sign_colours.hpp"
@@ -21,8 +22,8 @@ constexpr double beside_m = 0.3;
 constexpr double before_opening_m = 0.01;
 /// An intensity below this share of the luminaire's largest counts as no light.
 constexpr double faint_share = 1e-3;
-/// Search for a floor: largest depth, and the depth within which a thing may meet its own body [m].
-constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
+/// Places in gaps of a grid keep this distance from upright surfaces [m].
+constexpr double touching_m = 0.003;
 /// A surface less than this above the floor of a route is no floor but a desk or counter [m].
 constexpr double desk_m = 1.3;
 
@@ -126,6 +127,7 @@ CodeLight::CodeLight(const SceneDescription& scene, const Building& building,
     : scene_(scene),
       building_(building),
       screens_(building.scene()),
+      floor_(building),
       luminaires_(emergency_luminaires(scene)),
       places_(std::move(places)) {
   if (luminaires_.empty()) return;
@@ -227,17 +229,74 @@ std::vector<uint32_t> CodeLight::columns_of(const std::vector<uint32_t>& luminai
   return out;
 }
 
-AreaPoints CodeLight::points_of(const AssessedArea& area, double border_m) const {
-  const auto all = within(area, border_m, area_grid_m);
-  std::vector<char> inside(all.size(), 0);
-  building_.each(all.size(), [&](const GeometryAccess& access, size_t i) {
-    inside[i] = building_.in_solid(access, all[i] + glm::dvec3(0, 0, floor_plane_m)) ? 1 : 0;
+CalculationGrid CodeLight::without_bodies(const CalculationGrid& grid) const {
+  std::vector<char> inside(grid.places.size(), 0);
+  building_.each(inside.size(), [&](const GeometryAccess& access, size_t i) {
+    inside[i] = is_in_body(access, grid.places[i]) ? 1 : 0;
   });
-  AreaPoints out;
-  for (size_t i = 0; i < all.size(); ++i)
-    if (inside[i] == 0) out.places.push_back(all[i]);
-  out.in_bodies = all.size() - out.places.size();
+  CalculationGrid out;
+  std::vector<uint32_t> number(inside.size(), 0);
+  for (size_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] != 0) continue;
+    number[i] = static_cast<uint32_t>(out.places.size());
+    out.places.push_back(grid.places[i]);
+  }
+  out.in_bodies = grid.places.size() - out.places.size();
+  for (GridGap gap : grid.gaps) {
+    const auto left = std::find_if(gap.corners.begin(), gap.corners.end(),
+                                   [&](uint32_t corner) { return inside[corner] == 0; });
+    if (left == gap.corners.end()) continue;
+    const uint32_t known = *left;
+    for (uint32_t& corner : gap.corners) corner = number[inside[corner] == 0 ? corner : known];
+    out.gaps.push_back(gap);
+  }
   return out;
+}
+
+CalculationGrid CodeLight::points_of(const AssessedArea& area, double border_m) const {
+  return without_bodies(grid_of(area, border_m, area_grid_m));
+}
+
+RoutePoints CodeLight::points_of(const EscapeRoute& route) const {
+  RoutePoints out = luxodus::points_of(
+      route, [&](double aside_m) { return floor_.line(route, aside_m, route_grid_m); });
+  for (CalculationGrid* grid : {&out.centre, &out.band, &out.inner}) *grid = without_bodies(*grid);
+  return out;
+}
+
+CalculationGrid CodeLight::points_within(const EscapeRoute& route, double half_width_m,
+                                         double spacing_m) const {
+  return without_bodies(grid_within(half_width_m, spacing_m, [&](double aside_m) {
+    return floor_.line(route, aside_m, spacing_m);
+  }));
+}
+
+std::vector<LitPoint> CodeLight::lit_off_bodies(const std::vector<glm::dvec3>& places) const {
+  std::vector<char> is_free(places.size(), 0);
+  building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
+    is_free[i] = is_in_body(access, places[i]) || touches_a_surface(access, places[i]) ? 0 : 1;
+  });
+  std::vector<glm::dvec3> free;
+  for (size_t i = 0; i < places.size(); ++i)
+    if (is_free[i] != 0) free.push_back(places[i]);
+  return lit(free, {0, 0, 1}, floor_plane_m);
+}
+
+bool CodeLight::touches_a_surface(const GeometryAccess& access, const glm::dvec3& place) const {
+  const glm::dvec3 middle = place + glm::dvec3(0, 0, floor_plane_m);
+  for (const glm::dvec2 way : {glm::dvec2(1, 0), {0, 1}, {0.7, 0.7}, {0.7, -0.7}}) {
+    const glm::dvec3 before = middle - glm::dvec3(way * touching_m, 0);
+    const auto met =
+        first_stop(building_.scene(), access, building_.local(before),
+                   Vec3(glm::normalize(glm::dvec3(way, 0))), static_cast<Real>(2 * touching_m),
+                   [](const FacedSurface& f) { return lets_light_through(f.kind); });
+    if (met) return true;
+  }
+  return false;
+}
+
+bool CodeLight::is_in_body(const GeometryAccess& access, const glm::dvec3& place) const {
+  return building_.in_solid(access, place + glm::dvec3(0, 0, floor_plane_m));
 }
 
 std::optional<std::vector<double>> CodeLight::vertical_lux(const EmphasisPoint& point) const {
@@ -295,13 +354,7 @@ std::optional<double> CodeLight::floor_under(const glm::dvec3& place) const {
   const auto stated = floor_below(scene_, place);
   std::optional<double> met;
   building_.each(1, [&](const GeometryAccess& access, size_t) {
-    const auto stop =
-        first_stop(building_.scene(), access, building_.local(place), glm::vec3(0, 0, -1),
-                   deepest_m, [&](const FacedSurface& f) {
-                     return f.surface >= building_.scene().description->objects.size() ||
-                            lets_light_through(f.kind) || f.distance_m < own_body_m;
-                   });
-    if (stop) met = place.z - static_cast<double>(stop->distance_m);
+    met = surface_below(building_, access, place);
   });
   if (!met) return stated;
   return stated && *stated < *met && *met - *stated < desk_m ? stated : met;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/judge/assess/level_screens.hpp"
+#include "actors/judge/assess/route_floor.hpp"
 #include "actors/judge/inspect/building.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -35,12 +36,6 @@ std::vector<glm::dvec3> beside(const EmphasisPoint& point);
 /// The place from which a luminaire near a sign must be visible: just before the sign's face.
 glm::dvec3 before_face(const Sign& sign);
 
-/// Points of an area outside furniture and walls.
-struct AreaPoints {
-  std::vector<glm::dvec3> places;  // on the plane of the area
-  size_t in_bodies = 0;            // points left out, where nobody walks or works
-};
-
 class CodeLight {
  public:
   /// `places`: a number for each emergency luminaire. Luminaires with equal numbers hang one behind
@@ -53,8 +48,21 @@ class CodeLight {
   /// faces `normal`.
   std::vector<LitPoint> lit(const std::vector<glm::dvec3>& places, const glm::dvec3& normal,
                             double lift_m) const;
-  /// Points of a square grid at least `border_m` from the edge of an area.
-  AreaPoints points_of(const AssessedArea& area, double border_m) const;
+  /// The same on a floor, without places in furniture and walls, or so close to an upright surface
+  /// that rounding decides on which side of it they are.
+  std::vector<LitPoint> lit_off_bodies(const std::vector<glm::dvec3>& places) const;
+  /// Points of a square grid at least `border_m` from the edge of an area, outside furniture and
+  /// walls.
+  CalculationGrid points_of(const AssessedArea& area, double border_m) const;
+  /// Points of a route, on the treads of its stairs, outside furniture and walls.
+  RoutePoints points_of(const EscapeRoute& route) const;
+  /// Points of a grid on a route, at most `spacing_m` apart, as of points_of.
+  CalculationGrid points_within(const EscapeRoute& route, double half_width_m,
+                                double spacing_m) const;
+  /// Flights of stairs that a route climbs.
+  std::vector<FlightOfRoute> flights_of(const EscapeRoute& route) const {
+    return floor_.flights_of(route);
+  }
   /// Illuminance on the front of equipment from each luminaire; none if it states no facing.
   std::optional<std::vector<double>> vertical_lux(const EmphasisPoint& point) const;
   /// Mean illuminance on the face of an externally lit sign from each luminaire; empty for other
@@ -67,6 +75,10 @@ class CodeLight {
   /// area.
   std::optional<double> floor_under(const glm::dvec3& place) const;
 
+  /// Luminaires that no floor slab certainly hides from a place, ascending.
+  std::vector<uint32_t> in_question(const glm::dvec3& place) const;
+  const Building& building() const { return building_; }
+
  private:
   /// Luminaires of one storey, by number; a screen that hides their box hides all of them.
   struct Storey {
@@ -75,8 +87,10 @@ class CodeLight {
     std::vector<Bounds> boxes;  // of each luminaire
   };
   void find_storeys();
-  /// Luminaires that no floor slab certainly hides from a place, ascending.
-  std::vector<uint32_t> in_question(const glm::dvec3& place) const;
+  bool is_in_body(const GeometryAccess& access, const glm::dvec3& place) const;
+  bool touches_a_surface(const GeometryAccess& access, const glm::dvec3& place) const;
+  /// A grid without its points in furniture and walls, where nobody walks or works.
+  CalculationGrid without_bodies(const CalculationGrid& grid) const;
   /// The first luminaire in the place of this one.
   uint32_t leader_of(uint32_t luminaire) const {
     while (!leads(luminaire)) --luminaire;
@@ -94,6 +108,7 @@ class CodeLight {
   const SceneDescription& scene_;
   const Building& building_;
   LevelScreens screens_;
+  RouteFloor floor_;
   std::vector<uint32_t> luminaires_;  // indices among the scene's emitters
   std::vector<uint32_t> columns_;     // the same among the compiled emitters
   std::vector<uint32_t> places_;      // of each luminaire

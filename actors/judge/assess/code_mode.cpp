@@ -2,14 +2,19 @@
 
 #include <algorithm>
 
+#include "actors/judge/assess/between_points.hpp"
 #include "actors/judge/assess/clear_signs.hpp"
 #include "actors/judge/assess/code_light.hpp"
 #include "actors/judge/assess/plan_cut.hpp"
+#include "actors/judge/assess/storey_floor.hpp"
 #include "actors/judge/inspect/site.hpp"
+#include "scenes/emergency/far_field.hpp"
 
 namespace luxodus {
 
 namespace {
+
+const glm::dvec3 up(0, 0, 1);
 
 void append(std::vector<Check>& out, const std::vector<Check>& more) {
   out.insert(out.end(), more.begin(), more.end());
@@ -28,6 +33,11 @@ class CodeMode {
       : scene_(scene), now_(now), building_(building), codes_(codes), light_(scene, building) {
     for (const uint32_t number : emergency_luminaires(scene))
       fed_.push_back(now.emitters[number].emergency_flux > 0);
+    factors_ = factors_of_checks(scene, codes, fed_);
+    std::vector<glm::dvec3> places;
+    for (const uint32_t number : emergency_luminaires(scene))
+      places.push_back(centre_of(scene.emitters[number]));
+    luminaire_floors_ = storey_floors(scene, building, places);
   }
 
   /// Checks that furniture may change.
@@ -41,8 +51,10 @@ class CodeMode {
   std::vector<Check> of_route(const EscapeRoute& route) const;
   std::vector<Check> of_area(
       const AssessedArea& area, double border_m,
-      const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
-          checks) const;
+      const std::function<std::vector<Check>(const JudgedPoints&, const CodeChoice&)>& checks)
+      const;
+  /// The light at the points of a grid and between them.
+  JudgedPoints light_on(const CalculationGrid& grid) const;
 
   /// Illuminance at the judged time.
   double sum_of(const std::vector<double>& lux) const {
@@ -58,20 +70,30 @@ class CodeMode {
   const std::vector<CodeChoice>& codes_;
   CodeLight light_;
   FedLuminaires fed_;
+  std::vector<LuminaireFactors> factors_;
+  std::vector<std::optional<double>> luminaire_floors_;
 };
 
+JudgedPoints CodeMode::light_on(const CalculationGrid& grid) const {
+  JudgedPoints out(light_.lit(grid.places, up, floor_plane_m));
+  out.between = lit_between(scene_, light_, grid, out.grid, factors_);
+  out.in_bodies = grid.in_bodies;
+  return out;
+}
+
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
-  const RoutePoints points = points_of(route);
-  const glm::dvec3 up(0, 0, 1);
-  RouteLight light;
-  light.centre = light_.lit(points.centre, up, floor_plane_m);
-  light.band = light_.lit(points.band, up, floor_plane_m);
-  light.inner = light_.lit(points.inner, up, floor_plane_m);
+  const RoutePoints points = light_.points_of(route);
+  const RouteLight light{light_on(points.centre), light_on(points.band), light_on(points.inner)};
   const auto people = walkers(route, scene_.assessment.spacing_m);
   const auto clear = clear_signs(now_, building_, people);
+  std::vector<std::pair<std::string, std::vector<LitPoint>>> flights;
+  for (const FlightOfRoute& flight : light_.flights_of(route))
+    flights.emplace_back(flight.name, light_.lit(flight.treads, up, floor_plane_m));
   std::vector<Check> out;
   for (const CodeChoice& codes : codes_) {
     append(out, checks_of_route(scene_, route, light, codes, fed_));
+    for (const auto& [name, treads] : flights)
+      append(out, checks_of_flight(name, treads, codes, fed_));
     append(out, checks_of_distance(now_, route, people, clear, codes));
   }
   out.push_back(check_of_failure(scene_, subject_of(route), light.centre, fed_));
@@ -82,11 +104,9 @@ std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
 /// walls, where nobody walks or works. The checks state how many of the latter were left out.
 std::vector<Check> CodeMode::of_area(
     const AssessedArea& area, double border_m,
-    const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
-        checks) const {
-  const glm::dvec3 up(0, 0, 1);
-  const AreaPoints all = light_.points_of(area, border_m);
-  const auto points = light_.lit(all.places, up, floor_plane_m);
+    const std::function<std::vector<Check>(const JudgedPoints&, const CodeChoice&)>& checks) const {
+  const CalculationGrid all = light_.points_of(area, border_m);
+  const JudgedPoints points = light_on(all);
   std::vector<Check> out;
   for (const CodeChoice& codes : codes_) append(out, checks(points, codes));
   if (all.in_bodies > 0)
@@ -117,8 +137,10 @@ std::vector<Check> CodeMode::checks_by_light() const {
     const LinesOfSight seen = light_.seen_from(beside(point));
     const auto parts = light_.vertical_lux(point);
     const auto lux = parts ? std::optional(sum_of(*parts)) : std::nullopt;
+    const StoreyFloors floors{storey_floor_around(scene_, building_, point.position, beside(point)),
+                              luminaire_floors_};
     add([&](const CodeChoice& codes) {
-      return checks_of_emphasis(scene_, point, seen, lux, codes, fed_);
+      return checks_of_emphasis(scene_, point, seen, lux, codes, fed_, floors);
     });
   }
   return out;
@@ -129,9 +151,11 @@ std::vector<Check> CodeMode::checks_of_parts() const {
   const FloorUnder floor = [this](const glm::dvec3& place) { return light_.floor_under(place); };
   for (const Sign& sign : now_.signs) {
     const double lux = sum_of(light_.lux_on_face(sign));
-    const LinesOfSight seen = light_.seen_from({before_face(sign)});
+    const std::vector<glm::dvec3> front{before_face(sign)};
+    const LinesOfSight seen = light_.seen_from(front);
+    const StoreyFloors floors{storey_floors(scene_, building_, front).front(), luminaire_floors_};
     for (const CodeChoice& codes : codes_)
-      append(out, checks_of_sign(scene_, sign, lux, seen, codes, floor, fed_));
+      append(out, checks_of_sign(scene_, sign, lux, seen, codes, floor, fed_, floors));
   }
   for (const CodeChoice& codes : codes_) {
     append(out, checks_of_glare(scene_, codes, floor));
@@ -144,14 +168,14 @@ std::vector<Check> CodeMode::checks_of_parts() const {
 void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
   std::vector<glm::dvec3> places;
   for (const EscapeRoute& route : scene_.routes) {
-    const auto more = within(route, route.width_m / 2 - route_grid_m, 2 * route_grid_m);
+    const auto more =
+        light_.points_within(route, route.width_m / 2 - route_grid_m, 2 * route_grid_m).places;
     places.insert(places.end(), more.begin(), more.end());
   }
   for (const AssessedArea& area : scene_.open_areas) {
     const auto more = within(area, area_grid_m / 2, area_grid_m);
     places.insert(places.end(), more.begin(), more.end());
   }
-  const glm::dvec3 up(0, 0, 1);
   for (const LitPoint& p : light_.lit(places, up, floor_plane_m))
     levels[level_of(levels, p.place.z)].points.push_back({p.place, sum_of(p.lux)});
   for (size_t i = 0; i < levels.size(); ++i) {
@@ -163,6 +187,14 @@ void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
     for (const LitPoint& p : light_.lit(grid, up, floor_plane_m))
       map.lux.push_back(drawn_lux(sum_of(p.lux)));
   }
+}
+
+void find_floors(const SceneDescription& scene, const Building& building, Assessment& out) {
+  std::vector<glm::dvec3> luminaires, signs;
+  for (const Emitter& e : scene.emitters) luminaires.push_back(centre_of(e));
+  for (const Sign& sign : scene.signs) signs.push_back(before_face(sign));
+  out.luminaire_floors = storey_floors(scene, building, luminaires);
+  out.sign_floors = storey_floors(scene, building, signs);
 }
 
 }  // namespace
@@ -180,7 +212,10 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
                                    code_scenario(switched, scenario), options.threads);
     if (!building) return building.problem();
     const CodeMode mode(switched, now, *building.value(), out.state.codes);
-    if (!furnished) mode.fill_plan(out.levels);
+    if (!furnished) {
+      mode.fill_plan(out.levels);
+      find_floors(scene, *building.value(), out);
+    }
     auto checks = mode.checks_by_light();
     if (has_furniture)
       add_condition(checks,

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "actors/judge/assess/code_light.hpp"
+#include "actors/judge/assess/storey_floor.hpp"
 #include "actors/judge/design/wall_places.hpp"
 #include "actors/judge/design/wall_probe.hpp"
 #include "scenes/emergency/rule_limits.hpp"
@@ -66,12 +67,14 @@ void add_over_route(const EscapeRoute& route, double spacing_m, std::vector<Spot
   }
 }
 
-std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& design) {
+std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& design,
+                           const Building& building) {
   std::vector<Spot> out;
   if (!design.places.empty()) {
-    for (const glm::dvec3& p : design.places) {
-      const auto floor = floor_below(scene, p);
-      out.push_back({{p.x, p.y, floor.value_or(p.z)}, 0, p.z});
+    const auto floors = storey_floors(scene, building, design.places);
+    for (size_t i = 0; i < floors.size(); ++i) {
+      const glm::dvec3& p = design.places[i];
+      out.push_back({{p.x, p.y, floors[i].value_or(p.z)}, 0, p.z});
     }
     return out;
   }
@@ -127,7 +130,7 @@ class PlaceFinder {
 
   /// Spots over which luminaires can hang, each at its mounting height.
   std::vector<Spot> find(LeftOut& left_out) const {
-    const std::vector<Spot> spots = spots_of(scene_, design_);
+    const std::vector<Spot> spots = spots_of(scene_, design_, bare_);
     enum class Fate : char { good, no_ceiling, in_body, near_wall };
     std::vector<Fate> fates(spots.size(), Fate::good);
     std::vector<double> heights(spots.size(), 0);
@@ -300,14 +303,17 @@ struct MovableKind {
 };
 
 /// Numbers the pools of movable luminaires.
-std::vector<MovableKind> find_pools(const SceneDescription& scene,
+std::vector<MovableKind> find_pools(const SceneDescription& scene, const Building& building,
                                     std::vector<LuminaireCandidate>& existing) {
   std::vector<MovableKind> out;
+  std::vector<glm::dvec3> places;
+  for (const LuminaireCandidate& one : existing) places.push_back(one.position);
+  const auto floors = storey_floors(scene, building, places);
   for (size_t i = 0; i < existing.size(); ++i) {
     if (!existing[i].pool) continue;
     const Emitter& e = *std::find_if(scene.emitters.begin(), scene.emitters.end(),
                                      [&](const Emitter& o) { return o.name == existing[i].name; });
-    const auto floor = floor_below(scene, existing[i].position);
+    const auto& floor = floors[i];
     MovableKind kind{&e, floor, {static_cast<uint32_t>(out.size()), 0}};
     auto at = std::find_if(out.begin(), out.end(), [&](const MovableKind& other) {
       return same_light(e, *other.emitter) && e.circuit == other.emitter->circuit &&
@@ -603,7 +609,7 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   out.unused = unused_types(design, codes);
   add_existing(scene, design, out);
   const auto existing = static_cast<uint32_t>(out.all.size());
-  const std::vector<MovableKind> kinds = find_pools(scene, out.all);
+  const std::vector<MovableKind> kinds = find_pools(scene, *bare.value(), out.all);
   const auto any_moves = [&](bool on_wall) {
     return std::any_of(kinds.begin(), kinds.end(),
                        [&](const MovableKind& kind) { return kind.on_wall() == on_wall; });

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "actors/judge/assess/storey_floor.hpp"
 #include "actors/judge/design/demands_lit.hpp"
 #include "actors/judge/design/stair_flights.hpp"
 #include "actors/judge/inspect/site.hpp"
@@ -24,11 +25,6 @@ using namespace rule_limit;
 
 namespace {
 
-/// Illuminance from one luminaire from which it lights a tread directly: a tenth of a route's
-/// minimum [lx].
-constexpr double lit_tread_lx = 0.1;
-/// Height above the line from the lowest to the highest tread, so that no edge hides its tread [m].
-constexpr double above_tread_m = 0.1;
 /// Luminaires over each route and open area.
 constexpr double so_many = 2;
 bool all_one(const std::vector<double>& factors) {
@@ -67,14 +63,19 @@ class Demands::Builder {
 
   void build() {
     add_options();
-    for (const LuminaireCandidate& one : candidates_)
-      floors_.push_back(floor_below(scene_, one.position));
+    std::vector<glm::dvec3> positions;
+    for (const LuminaireCandidate& one : candidates_) positions.push_back(one.position);
+    floors_ = storey_floors(scene_, *out_.bare_->building, positions);
     find_regions();
     for (const EscapeRoute& route : scene_.routes) add_route(route);
     for (const AssessedArea& area : scene_.open_areas) add_open_area(area);
     for (const AssessedArea& area : scene_.task_areas) add_task_area(area);
     for (const EmphasisPoint& point : emphasis_of(scene_)) add_emphasis(point);
-    for (const StairFlight& stairs : stair_flights_of(scene_, design_)) add_stair_flight(stairs);
+    for (const EscapeRoute& route : scene_.routes)
+      for (const FlightOfRoute& flight : out_.bare_->light.flights_of(route))
+        add_stair_flight(flight.name, flight.treads);
+    for (const StairFlight& stairs : flights_beside_routes(scene_, design_))
+      add_stair_flight(stairs.name, treads_of(stairs));
     for (const Sign& sign : scene_.signs) add_sign(sign);
   }
 
@@ -199,8 +200,6 @@ class Demands::Builder {
       if (!seen.contains(key_of_place(problem_.points[p].place))) out.with_both.push_back(p);
     return out;
   }
-  Both both_at(const std::vector<glm::dvec3>& places) { return both_at(places, places); }
-
   /// The points at which an illuminance is required: those with furniture, unless some of them get
   /// less from all candidates together. Then no layout passes with furniture, and the points
   /// without it are used.
@@ -351,8 +350,12 @@ class Demands::Builder {
 
   void add_route(const EscapeRoute& route) {
     const Subject subject = subject_of(route);
-    const RoutePoints points = points_of(route);
-    const Both centre = both_at(points.centre);
+    const RoutePoints bare = out_.bare_->light.points_of(route);
+    const RoutePoints furnished = out_.furnished_ ? out_.furnished_->light.points_of(route) : bare;
+    const auto both_of = [&](CalculationGrid RoutePoints::*part) {
+      return both_at((bare.*part).places, (furnished.*part).places);
+    };
+    const Both centre = both_of(&RoutePoints::centre);
     const auto above = over(route, route.path.front().z);
     const auto peaks = peaks_of(route, places_of(above));
     Both walked = centre;
@@ -361,11 +364,11 @@ class Demands::Builder {
       switch (codes.set) {
         case RuleSet::en1838_2013:
           add_minima(DemandKind::minimum, RuleId::E1, subject, centre, limit_of(RuleId::E1));
-          add_minima(DemandKind::minimum, RuleId::E2, subject, both_at(points.band),
+          add_minima(DemandKind::minimum, RuleId::E2, subject, both_of(&RoutePoints::band),
                      limit_of(RuleId::E2));
           break;
         case RuleSet::en1838_2024:
-          walked = both_at(points.inner);
+          walked = both_of(&RoutePoints::inner);
           add_minima(DemandKind::minimum, RuleId::E5, subject, walked, limit_of(RuleId::E1));
           break;
         case RuleSet::nfpa101:
@@ -448,8 +451,7 @@ class Demands::Builder {
 
   /// A luminaire near a place, as in luminaire_near.
   void add_near(RuleId rule, const Subject& subject, const glm::dvec3& place, bool above,
-                const LinesOfSight& seen) {
-    const auto floor = floor_below(scene_, place);
+                const LinesOfSight& seen, const std::optional<double>& floor) {
     std::vector<double> near(candidates_.size(), 0);
     for (size_t i = 0; i < candidates_.size(); ++i) {
       const glm::dvec3& p = candidates_[i].position;
@@ -472,7 +474,8 @@ class Demands::Builder {
       const LinesOfSight past = out_.furnished_->light.seen_from(beside(point));
       for (size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] && past[i];
     }
-    add_near(RuleId::E12, subject, point.position, true, seen);
+    add_near(RuleId::E12, subject, point.position, true, seen,
+             storey_floor_around(scene_, *out_.bare_->building, point.position, beside(point)));
     constexpr std::array equipment{EmphasisKind::first_aid, EmphasisKind::fire_equipment,
                                    EmphasisKind::call_point, EmphasisKind::alarm_panel};
     if (std::find(equipment.begin(), equipment.end(), point.kind) == equipment.end()) return;
@@ -487,11 +490,12 @@ class Demands::Builder {
   /// One luminaire lights the whole flight if any can; else each tread needs a luminaire that
   /// lights it. A flight that no candidate lights is outside the designed part of the building.
   /// Barred candidates do not count.
-  void add_stair_flight(const StairFlight& stairs) {
+  void add_stair_flight(const std::string& name, const std::vector<glm::dvec3>& places) {
     if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
       return;
     const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
-    const auto treads = darker.light.lit(treads_of(stairs), floor_normal, above_tread_m);
+    const double lit_tread_lx = limit_of(RuleId::E12s);
+    const auto treads = darker.light.lit(places, floor_normal, floor_plane_m);
     const auto is_lit = [&](const LitPoint& tread, size_t by) {
       return !candidates_[by].barred && tread.lux[by] >= lit_tread_lx;
     };
@@ -500,9 +504,9 @@ class Demands::Builder {
         if (is_lit(tread, i)) return false;
       return true;
     });
-    if (dark) return out_.unlit_stair_flights_.push_back(stairs.name);
-    const uint32_t group = add_group(DemandKind::stairs, RuleId::E12,
-                                     {SubjectKind::stairs, stairs.name}, lit_tread_lx);
+    if (dark) return out_.unlit_stair_flights_.push_back(name);
+    const uint32_t group =
+        add_group(DemandKind::stairs, RuleId::E12s, {SubjectKind::stairs, name}, lit_tread_lx);
     std::vector<double> all(candidates_.size(), 1);
     for (const LitPoint& tread : treads)
       for (size_t i = 0; i < all.size(); ++i)
@@ -521,8 +525,9 @@ class Demands::Builder {
     const Subject subject = subject_of(sign);
     for (const CodeChoice& codes : codes_) {
       if (codes.european()) {
-        add_near(RuleId::S6l, subject, sign.frame.origin, false,
-                 out_.bare_->light.seen_from({before_face(sign)}));
+        const std::vector<glm::dvec3> front{before_face(sign)};
+        add_near(RuleId::S6l, subject, sign.frame.origin, false, out_.bare_->light.seen_from(front),
+                 storey_floors(scene_, *out_.bare_->building, front).front());
       } else {
         const double asked = limit_of(RuleId::N6) * design_.margin;
         add_cover(add_group(DemandKind::face, RuleId::N6, subject, asked),
@@ -564,6 +569,10 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
 }
 
 bool Demands::is_hidden(const Check& check) const {
+  if (check.rule.id == RuleId::E12s &&
+      std::find(unlit_stair_flights_.begin(), unlit_stair_flights_.end(), check.subject.name) !=
+          unlit_stair_flights_.end())
+    return true;
   return std::count(check.conditions.begin(), check.conditions.end(),
                     remark(RemarkId::with_furniture)) > 0 &&
          hidden_.contains({name_of(check.rule.id), check.subject});

@@ -63,7 +63,8 @@ class Demands {
 
   const LayoutProblem& problem() const { return problem_; }
 
-  /// Whether a check cannot pass with any layout, since furniture hides points from all candidates.
+  /// Whether a check cannot pass with any layout, since furniture hides points from all candidates,
+  /// or since no candidate lights a flight of stairs.
   bool is_hidden(const Check& check) const;
 
   /// Rules and subjects that are required without furniture only, with the number of points that

@@ -119,7 +119,7 @@ bool Demands::ask_for_more(const Check& check, const Layout& layout) {
     const ConstraintGroup& group = problem_.groups[rows.group];
     return group.rule == check.rule.id && group.subject == check.subject;
   };
-  if (!check.value || !check.limit) return false;
+  if (!check.value || !check.limit || std::isinf(*check.value)) return false;
   bool any = false;
   if (!check.at_least) {
     // Largest over smallest: the required ratio is reduced by the factor by which the value exceeds

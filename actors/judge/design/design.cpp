@@ -189,7 +189,8 @@ class DesignRun {
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
       const bool last = out_.verifications == max_verifications || interrupt_;
       if (!failing.empty()) {
-        if (!last && ask_for_more(failing)) continue;
+        // A check that fails between points passes with these points.
+        if (!last && (look_between() || ask_for_more(failing))) continue;
         if (!nearest_) return rejected(failing.front());
         out_ = *std::move(nearest_);
         break;

@@ -321,7 +321,9 @@ CsvTable schedule_csv(const DesignResult& result) {
                                : "stays")
         .cell(type_of(scene, one));
     table.cell(at->file).cell(p.x).cell(p.y).cell(p.z);
-    if (const auto floor = floor_below(scene, p))
+    const auto floor =
+        one.is_placed() ? std::optional(one.candidate.floor.z) : floor_below(scene, p);
+    if (floor)
       table.cell(p.z - *floor);
     else
       table.empty_cell();

@@ -1,4 +1,5 @@
-// Flights of stairs: those of objects, and those that routes climb. Pure functions; any thread.
+// Flights of stairs that are objects of the scene. Those that routes climb: FlightOfRoute in
+// actors/judge/assess/route_floor.hpp. Pure functions; any thread.
 #pragma once
 
 #include <vector>
@@ -7,9 +8,9 @@
 
 namespace luxodus {
 
-/// Each flight once; if a route climbs the stairs of an object, the flight is that of the object.
-std::vector<StairFlight> stair_flights_of(const SceneDescription& scene,
-                                          const DesignSettings& design);
+/// Flights of objects that no route climbs: a flight on a route is that of the route.
+std::vector<StairFlight> flights_beside_routes(const SceneDescription& scene,
+                                               const DesignSettings& design);
 
 /// Centre of each tread, from below.
 std::vector<glm::dvec3> treads_of(const StairFlight& stairs);

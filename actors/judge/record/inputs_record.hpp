@@ -62,6 +62,7 @@ struct ScenarioRecord {
 struct LuminaireRecord {
   std::string name, file, product, shape, distribution;
   glm::dvec3 position{0};
+  std::optional<double> floor_m;  // of its storey; none if it is not known
   std::string circuit;
   std::string operation;  // "mains", "maintained", "non-maintained"
   QuantityRecord mains_flux, emergency_flux;
@@ -71,7 +72,8 @@ struct LuminaireRecord {
   std::vector<glm::dvec2> onset;  // seconds and share of the flux
   static constexpr void fields(auto&& field, auto& m) {
     field("name", m.name)("file", m.file)("product", m.product)("shape", m.shape);
-    field("distribution", m.distribution)("position", m.position)("circuit", m.circuit);
+    field("distribution", m.distribution)("position", m.position);
+    field("floor", m.floor_m, {.unit = "m"})("circuit", m.circuit);
     field("operation", m.operation)("mains_flux", m.mains_flux);
     field("emergency_flux", m.emergency_flux)("maintenance_factor", m.maintenance_factor);
     field("end_of_duration_factor", m.end_of_duration_factor);
@@ -96,7 +98,9 @@ struct FaceColourRecord {
 
 struct SignRecord {
   std::string name;
-  glm::dvec3 position{0}, facing{0};
+  glm::dvec3 position{0};
+  std::optional<double> floor_m;  // of its storey; none if it is not known
+  glm::dvec3 facing{0};
   std::string file, text;
   double width_m = 0, height_m = 0, smallest_detail_m = 0;
   bool double_sided = false;
@@ -104,7 +108,8 @@ struct SignRecord {
   std::string legend, ground;  // names of colours; ground: "" if the face has one colour
   std::vector<FaceColourRecord> colours;
   static constexpr void fields(auto&& field, auto& m) {
-    field("name", m.name)("position", m.position)("facing", m.facing)("file", m.file);
+    field("name", m.name)("position", m.position);
+    field("floor", m.floor_m, {.unit = "m"})("facing", m.facing)("file", m.file);
     field("text", m.text);
     field("width", m.width_m, {.unit = "m"});
     field("height", m.height_m, {.unit = "m"});

@@ -113,7 +113,7 @@ std::string sign_row(const PageParts& parts, size_t number) {
          cell(t.fixed(s.width_m, 3) + " × " + t.fixed(s.height_m, 3)) +
          number_cell(t, 1000 * s.smallest_detail_m) + html_cell(escaped(luminances(t, s)), "n") +
          html_cell(escaped(t.place(p.x, p.y, p.z)) + "<br>" +
-                   escaped(t.say("sign.height", t.fixed(parts.schedule.above_floor(p.z))))) +
+                   escaped(t.say("sign.height", t.fixed(parts.schedule.above_floor(s))))) +
          html_cell(t.fixed(bearing, 0) + "°", "n") + "</tr>\n";
 }
 

@@ -386,7 +386,7 @@ std::string signs_appendix(const PageParts& parts) {
   out += subheading(t.say("sights.maps", t.fixed(heights.front()))) + "<div class=\"maps\">\n";
   const auto& signs = parts.a.signs;
   for (size_t i = 0; i < signs.size(); ++i) {
-    const size_t level = parts.schedule.level_of(signs[i].position.z);
+    const size_t level = parts.schedule.level_of(signs[i]);
     out += figure(plans.sights(level, heights.front(), signs[i].name).svg,
                   std::to_string(i + 1) + " · " + signs[i].name);
   }

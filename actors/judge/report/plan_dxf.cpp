@@ -80,12 +80,11 @@ void draw_luminaires(DxfDrawing& out, const AssessmentRecord& a, const Schedule&
   for (size_t i = 0; i < a.luminaires.size(); ++i) {
     const LuminaireRecord& one = a.luminaires[i];
     const glm::dvec3& p = one.position;
-    const double z = p.z;
-    if (schedule.level_of(z) != level) continue;
+    if (schedule.level_of(one) != level) continue;
     const LuminaireType& type = schedule.type_of(i);
     out.insert("LUMINAIRES", block_of(type), p, 0, {{"NAME", one.name}, {"TYPE", type.letter}});
     out.text("TEXT", glm::dvec2(p) + glm::dvec2(lamp_m + 0.05, -letter_m / 2),
-             fmt::format("{} {:.2f}", type.letter, schedule.above_floor(z)), letter_m);
+             fmt::format("{} {:.2f}", type.letter, schedule.above_floor(one)), letter_m);
   }
 }
 
@@ -94,8 +93,7 @@ void draw_signs(DxfDrawing& out, const AssessmentRecord& a, const Schedule& sche
   for (size_t i = 0; i < a.signs.size(); ++i) {
     const SignRecord& one = a.signs[i];
     const glm::dvec3 &p = one.position, &f = one.facing;
-    const double z = p.z;
-    if (schedule.level_of(z) != level) continue;
+    if (schedule.level_of(one) != level) continue;
     const double turn = std::atan2(f.y, f.x) * 180 / std::numbers::pi;
     out.insert("SIGNS", sign_block, p, turn,
                {{"NAME", one.name},

@@ -232,8 +232,7 @@ std::string luminaires(const AssessmentRecord& a, const Schedule& schedule, cons
   std::vector<Label> wanted;
   const auto& all = a.luminaires;
   for (size_t i = 0; i < all.size(); ++i) {
-    const double z = all[i].position.z;
-    if (schedule.level_of(z) != level) continue;
+    if (schedule.level_of(all[i]) != level) continue;
     const LuminaireType& type = schedule.type_of(i);
     const double x = sheet.x(all[i].position.x);
     const double y = sheet.y(all[i].position.y);
@@ -242,7 +241,8 @@ std::string luminaires(const AssessmentRecord& a, const Schedule& schedule, cons
                        luminaire_symbol(x, y, emergency));
     if (labels == nullptr) continue;
     labels->reserve(x, y, 2.2, 2.2);
-    wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
+    wanted.push_back(
+        {type.letter + " " + texts.fixed(schedule.above_floor(all[i])), x, y, emergency});
   }
   // Emergency luminaires are labelled first and drawn last, since the plan is about them.
   std::string emergency_labels;
@@ -265,7 +265,7 @@ std::array<double, 2> sign_number_place(const SignRecord& sign, const Sheet& she
 void reserve_signs(const AssessmentRecord& a, const Schedule& schedule, size_t level,
                    const Sheet& sheet, LabelSpace& space) {
   for (const SignRecord& sign : a.signs) {
-    if (schedule.level_of(sign.position.z) != level) continue;
+    if (schedule.level_of(sign) != level) continue;
     const auto number = sign_number_place(sign, sheet);
     space.reserve(number[0], number[1], 4.2, 4.2);
     space.reserve(sheet.x(sign.position.x) + 2 * sign.facing.x,
@@ -297,7 +297,7 @@ std::string signs(const AssessmentRecord& a, const Schedule& schedule, size_t le
   const auto& all = a.signs;
   for (size_t i = 0; i < all.size(); ++i) {
     const glm::dvec3& position = all[i].position;
-    if (schedule.level_of(position.z) != level) continue;
+    if (schedule.level_of(all[i]) != level) continue;
     if (!only.empty() && all[i].name != only) continue;
     const double x = sheet.x(position.x), y = sheet.y(position.y);
     const double fx = all[i].facing.x, fy = -all[i].facing.y;
@@ -433,11 +433,11 @@ void explain_luminaires(Legend& legend, const AssessmentRecord& a, const Schedul
   for (const bool emergency : {true, false}) {
     bool any = false;
     for (size_t i = 0; i < a.luminaires.size(); ++i) {
-      const double z = a.luminaires[i].position.z;
-      if (schedule.level_of(z) != level || schedule.type_of(i).emergency() != emergency) continue;
+      const LuminaireRecord& one = a.luminaires[i];
+      if (schedule.level_of(one) != level || schedule.type_of(i).emergency() != emergency) continue;
       any = true;
       if (letters.empty())
-        letters = schedule.type_of(i).letter + " " + texts.fixed(schedule.above_floor(z));
+        letters = schedule.type_of(i).letter + " " + texts.fixed(schedule.above_floor(one));
     }
     if (any)
       legend.add(luminaire_symbol(1.1, 0, emergency), 2.2,
@@ -452,7 +452,7 @@ void explain_signs(Legend& legend, const AssessmentRecord& a, const Schedule& sc
                    const Texts& texts, size_t level) {
   bool any = false, double_sided = false;
   for (const SignRecord& sign : a.signs) {
-    if (schedule.level_of(sign.position.z) != level) continue;
+    if (schedule.level_of(sign) != level) continue;
     any = true;
     double_sided = double_sided || sign.double_sided;
   }

@@ -20,12 +20,14 @@ std::string letter_of(size_t number) {
 LuminaireRecord type_of(LuminaireRecord luminaire) {
   luminaire.name = luminaire.circuit = "";
   luminaire.position = glm::dvec3(0);
+  luminaire.floor_m.reset();
   return luminaire;
 }
 
 SignRecord type_of(SignRecord sign) {
   sign.name = sign.circuit = "";
   sign.position = sign.facing = glm::dvec3(0);
+  sign.floor_m.reset();
   return sign;
 }
 
@@ -66,10 +68,6 @@ size_t Schedule::level_of(double z) const {
   for (size_t i = 0; i < floors_.size(); ++i)
     if (floors_[i] <= z + sunk_m) best = i;
   return best;
-}
-
-double Schedule::above_floor(double z) const {
-  return z - floors_[level_of(z)];
 }
 
 std::string product_of(const LuminaireRecord& luminaire) {

@@ -31,9 +31,17 @@ class Schedule {
   const std::vector<LuminaireType>& types() const { return types_; }
   const std::vector<SignType>& sign_types() const { return sign_types_; }
   const LuminaireType& type_of(size_t luminaire) const { return types_[type_of_[luminaire]]; }
-  /// Index of the level of a height, and the height above its floor [m].
+  /// Index of the level of a height.
   size_t level_of(double z) const;
-  double above_floor(double z) const;
+  /// The same of a luminaire or a sign, by the floor of its storey.
+  template <class Thing>
+  size_t level_of(const Thing& thing) const {
+    return level_of(thing.floor_m.value_or(thing.position.z));
+  }
+  template <class Thing>
+  double above_floor(const Thing& thing) const {
+    return thing.position.z - floors_[level_of(thing)];
+  }
   size_t levels() const { return floors_.size(); }
   double floor(size_t level) const { return floors_[level]; }
 

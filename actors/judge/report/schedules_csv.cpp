@@ -34,7 +34,7 @@ CsvTable luminaires_csv(const AssessmentRecord& a, const Schedule& schedule) {
     const LuminaireRecord& one = a.luminaires[i];
     const glm::dvec3& p = one.position;
     table.row(one.name, schedule.type_of(i).letter, one.product, one.file, one.operation,
-              one.circuit, p.x, p.y, p.z, schedule.above_floor(p.z), one.mains_flux.value,
+              one.circuit, p.x, p.y, p.z, schedule.above_floor(one), one.mains_flux.value,
               one.emergency_flux.value, one.mains_flux.unit, one.maintenance_factor,
               one.end_of_duration_factor);
   }
@@ -69,7 +69,7 @@ CsvTable signs_csv(const AssessmentRecord& a, const Schedule& schedule) {
     const SignRecord& one = a.signs[i];
     const glm::dvec3 &p = one.position, &f = one.facing;
     table.cells(static_cast<int64_t>(i + 1), one.name, one.file, one.text, one.lighting,
-                one.double_sided, one.circuit, p.x, p.y, p.z, schedule.above_floor(p.z), f.x, f.y,
+                one.double_sided, one.circuit, p.x, p.y, p.z, schedule.above_floor(one), f.x, f.y,
                 f.z, one.width_m, one.height_m, one.smallest_detail_m, one.legend, one.ground);
     const FaceColourRecord legend = colour_of(one, one.legend), ground = colour_of(one, one.ground);
     table.row(legend.mains_cd_m2, ground.mains_cd_m2, legend.emergency_cd_m2,

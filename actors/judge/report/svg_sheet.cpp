@@ -99,7 +99,7 @@ void Sheet::take_level(const AssessmentRecord& a, const Schedule& schedule, size
   for (const PlanPoint& p : level.points) take(p.place);
   const auto take_things = [&](const auto& things) {
     for (const auto& thing : things)
-      if (schedule.level_of(thing.position.z) == number) take(thing.position);
+      if (schedule.level_of(thing) == number) take(thing.position);
   };
   take_things(a.luminaires);
   take_things(a.signs);

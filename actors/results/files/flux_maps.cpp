@@ -69,11 +69,11 @@ class SurfaceCollector {
   VtkSurface take() {
     for (uint32_t side = 0; side < 2; ++side) {
       const std::string name = side_names[side];
-      give("incident_" + name + " [lx]", std::move(arrays_.incident[side]));
-      give("outgoing_" + name + " [lm/m2]", std::move(arrays_.outgoing[side]));
+      give("incident_" + name + "_lx", std::move(arrays_.incident[side]));
+      give("outgoing_" + name + "_lm_m2", std::move(arrays_.outgoing[side]));
       if (whole_) continue;
-      give("incident_" + name + " standard error [lx]", std::move(arrays_.incident_error[side]));
-      give("outgoing_" + name + " standard error [lm/m2]", std::move(arrays_.outgoing_error[side]));
+      give("incident_" + name + "_standard_error_lx", std::move(arrays_.incident_error[side]));
+      give("outgoing_" + name + "_standard_error_lm_m2", std::move(arrays_.outgoing_error[side]));
     }
     surface_.cell_data.push_back({"surface", 1, std::move(arrays_.surface)});
     surface_.cell_data.push_back({"triangle", 1, std::move(arrays_.triangle)});
@@ -82,8 +82,12 @@ class SurfaceCollector {
                                  std::to_string(limits::patches_drawn) +
                                  " patches; sums of patches have no standard error. "
                            : "One cell per flux patch. ") +
-        "Values are means over the cell. \"surface\" counts the surfaces of result.json "
-        "from 0; the front is the side from which corners run counter-clockwise.";
+        "Values are means over the cell: incident_..._lx is the illuminance [lx], "
+        "outgoing_..._lm_m2 the exitance [lm/m2]. \"surface\" counts the surfaces of result.json "
+        "from 0, whose names are surface_names; the front is the side from which corners run "
+        "counter-clockwise.";
+    for (const CompiledSurface& surface : scene_.surfaces)
+      surface_.surface_names.push_back(surface.name);
     return std::move(surface_);
   }
 
@@ -130,17 +134,17 @@ VtkVolume volume_of(const CompiledScene& scene, const Readout& readout) {
   }
   VtkVolume out;
   out.comment =
-      "Means over voxels. Fluence counts light from all directions alike. Voxels that walls cut "
-      "are "
+      "Means over voxels. Fluence [lm/m2] counts light from all directions alike; vector_flux is "
+      "in lm/m2, absorbed and scattered are powers per volume [lm/m3]. Voxels that walls cut are "
       "divided by their whole volume.";
   out.origin = glm::dvec3(grid.low) + scene.local_origin;
   out.spacing = glm::dvec3(edge);
   out.cells = {grid.nx, grid.ny, grid.nz};
-  out.cell_data.push_back({"fluence [lm/m2]", 1, std::move(fluence)});
-  out.cell_data.push_back({"fluence standard error [lm/m2]", 1, std::move(error)});
-  out.cell_data.push_back({"vector flux [lm/m2]", 3, std::move(vector)});
-  out.cell_data.push_back({"absorbed [lm/m3]", 1, std::move(absorbed)});
-  out.cell_data.push_back({"scattered [lm/m3]", 1, std::move(scattered)});
+  out.cell_data.push_back({"fluence_lm_m2", 1, std::move(fluence)});
+  out.cell_data.push_back({"fluence_standard_error_lm_m2", 1, std::move(error)});
+  out.cell_data.push_back({"vector_flux_lm_m2", 3, std::move(vector)});
+  out.cell_data.push_back({"absorbed_lm_m3", 1, std::move(absorbed)});
+  out.cell_data.push_back({"scattered_lm_m3", 1, std::move(scattered)});
   return out;
 }
 

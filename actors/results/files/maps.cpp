@@ -175,11 +175,12 @@ Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneM
 
 // ---- files -------------------------------------------------------------------------------------
 
-Result<void> write_table(const std::filesystem::path& path, const PlaneMap& map) {
-  // Means of cells, then the values at their centres.
-  CsvTable table({"x", "y", "z", "direct_lx", "indirect_lx", "indirect_se_lx", "total_lx",
-                  "luminaires_direct_clear_air_lx", "point_direct_lx",
-                  "point_luminaires_direct_clear_air_lx"});
+/// `columns`: cells along the plane's first edge.
+Result<void> write_table(const std::filesystem::path& path, const PlaneMap& map, size_t columns) {
+  // Means of cells, then the values at their centres, then where the cell is in the grid.
+  CsvTable table({"x", "y", "z", "direct_lx", "indirect_lx", "indirect_standard_error_lx",
+                  "total_lx", "luminaires_direct_clear_air_lx", "point_direct_lx",
+                  "point_luminaires_direct_clear_air_lx", "row", "column"});
   for (size_t i = 0; i < map.centres().size(); ++i) {
     const glm::dvec3& p = map.centres()[i];
     table.cell(p.x).cell(p.y).cell(p.z).cell(map.light.mean_lx[i]);
@@ -190,6 +191,7 @@ Result<void> write_table(const std::filesystem::path& path, const PlaneMap& map)
       table.cell(map.indirect_lx[i].standard_error);
     table.cell(map.total(i).value).cell(map.light.mean_clear_lx[i]);
     table.cell(map.light.point_lx[i]).cell(map.light.point_clear_lx[i]);
+    table.cell(static_cast<int64_t>(i / columns)).cell(static_cast<int64_t>(i % columns));
     table.end_row();
   }
   return write_csv(path, table);
@@ -324,9 +326,12 @@ Result<void> write_plane_maps(const std::filesystem::path& folder, const LocalRu
   const std::vector<std::string> names = result_names(*run.scene().description).planes;
   for (size_t i = 0; i < maps.planes.size(); ++i) {
     const std::filesystem::path stem = folder / names[i];
-    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i]); !ok)
+    const PlaneMeasure& plane = run.scene().description->planes[i];
+    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i],
+                              static_cast<size_t>(plane.cells_u));
+        !ok)
       return ok.problem();
-    if (!is_drawn(run.scene().description->planes[i])) continue;
+    if (!is_drawn(plane)) continue;
     if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok) return ok.problem();
   }
   return {};

@@ -73,6 +73,11 @@ Result<void> check_arrays(const std::vector<VtkArray>& arrays, uint64_t cells,
   for (const VtkArray& array : arrays) {
     if (array.name.empty())
       return problem_in(place, "an array of a VTK file needs a name", ProblemKind::bug);
+    if (array.name.find_first_of(" []") != std::string::npos)
+      return problem_in(place,
+                        "the name of array '" + clean_utf8(array.name) +
+                            "' has blanks or brackets, which other programs' formulas do not take",
+                        ProblemKind::bug);
     if (!names.insert(array.name).second) {
       return problem_in(place,
                         "array '" + clean_utf8(array.name) + "' is there twice; names must differ",
@@ -98,6 +103,21 @@ std::string cell_data_elements(const std::vector<VtkArray>& arrays, Appended& ap
         array.values);
   }
   return out + "      </CellData>\n";
+}
+
+/// An array of texts that belong to no cell: each as its bytes and a zero.
+std::string field_data_element(const std::string& name, const std::vector<std::string>& texts) {
+  if (texts.empty()) return "";
+  std::string out = "    <FieldData>\n      <DataArray type=\"String\" Name=\"" + name +
+                    "\" NumberOfTuples=\"" + std::to_string(texts.size()) +
+                    "\" format=\"ascii\">\n";
+  for (const std::string& text : texts) {
+    out += "        ";
+    for (const char c : clean_utf8(text))
+      out += std::to_string(static_cast<unsigned>(static_cast<unsigned char>(c))) + " ";
+    out += "0\n";
+  }
+  return out + "      </DataArray>\n    </FieldData>\n";
 }
 
 std::string file_start(const char* type, const std::string& comment) {
@@ -146,6 +166,7 @@ Result<void> write_vtp(const std::filesystem::path& path, const VtkSurface& surf
 
   Appended appended;
   std::string head = file_start("PolyData", surface.comment) + "  <PolyData>\n";
+  head += field_data_element("surface_names", surface.surface_names);
   head += "    <Piece NumberOfPoints=\"" + std::to_string(surface.points.size()) +
           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
           std::to_string(surface.triangles.size()) + "\">\n";

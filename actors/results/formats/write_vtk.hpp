@@ -24,17 +24,18 @@ inline constexpr uint64_t max_vtk_cells = (uint64_t{1} << 31) - 1;
 /// One value, or `components` values side by side, for every cell. NaN is allowed: ParaView shows
 /// it as "no value".
 struct VtkArray {
-  std::string name;  // unique in its file; put the unit in it: "illuminance [lx]"
+  std::string name;  // unique in its file, without blanks; its unit last: "illuminance_lx"
   int components = 1;
   std::variant<std::vector<float>, std::vector<double>, std::vector<int32_t>, std::vector<int64_t>>
       values;
 };
 
 struct VtkSurface {
-  std::string comment;                // the comment at the top of the file
-  std::vector<glm::dvec3> points;     // [m], finite
-  std::vector<glm::uvec3> triangles;  // indices of points
-  std::vector<VtkArray> cell_data;    // per triangle
+  std::string comment;                     // the comment at the top of the file
+  std::vector<glm::dvec3> points;          // [m], finite
+  std::vector<glm::uvec3> triangles;       // indices of points
+  std::vector<VtkArray> cell_data;         // per triangle
+  std::vector<std::string> surface_names;  // by the number that a cell's "surface" has
 };
 
 struct VtkVolume {
@@ -45,8 +46,8 @@ struct VtkVolume {
   std::vector<VtkArray> cell_data;  // per voxel
 };
 
-/// Errors: an array of the wrong length or without a unique name, an index out of range, a
-/// coordinate that is not finite; else as write_file_atomically.
+/// Errors: an array of the wrong length or without a unique name, or with one that has blanks or
+/// brackets, an index out of range, a coordinate that is not finite; else as write_file_atomically.
 Result<void> write_vtp(const std::filesystem::path& path, const VtkSurface& surface);
 Result<void> write_vti(const std::filesystem::path& path, const VtkVolume& volume);
 

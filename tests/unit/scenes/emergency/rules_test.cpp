@@ -95,6 +95,64 @@ TEST_CASE("a route passes at 1 lx and a diversity of 40, and fails below 1 lx or
   CHECK(of(checks, "E5").verdict == CheckVerdict::pass);
 }
 
+TEST_CASE("a check passes only if the worse end of its interval does", "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  const auto checks_with = [&](const LitPoint& between) {
+    RouteLight light;
+    light.centre = {at(0, 0.9, 0.1), at(10, 10, 10)};
+    light.centre.between = {between};
+    return checks_of_route(scene, scene.routes.front(), light, en13);
+  };
+  const Remarks none;
+  // Neither darker nor brighter than the points of the grid.
+  CHECK(*of(checks_with(at(5, 5, 5)), "E1").value == Approx(1));
+  CHECK(of(checks_with(at(5, 5, 5)), "E1").reasons == none);
+  const Check darker = of(checks_with(at(5, 0.4, 0.4)), "E1");
+  CHECK(darker.verdict == CheckVerdict::fail);
+  CHECK(*darker.value == Approx(0.8));
+  CHECK(darker.worst->x == 5);
+  CHECK(darker.reasons == Remarks{remark(RemarkId::value_on_grid, 1.0)});
+  // Less than a hundredth darker, but below the limit.
+  const Check hardly = of(checks_with(at(5, 0.495, 0.5)), "E1");
+  CHECK(hardly.verdict == CheckVerdict::fail);
+  CHECK(*hardly.value == Approx(0.995));
+  const Check brighter = of(checks_with(at(5, 25, 25)), "E4");
+  CHECK(brighter.verdict == CheckVerdict::fail);
+  CHECK(*brighter.value == Approx(50));
+  CHECK(brighter.reasons == Remarks{remark(RemarkId::value_on_grid, 20.0)});
+  // The mean is that of the grid.
+  RouteLight light;
+  light.centre = {at(0, 1, 1), at(10, 3, 3)};
+  light.centre.between = {at(5, 50, 50)};
+  CHECK(*of(checks_of_route(scene, scene.routes.front(), light, nfpa), "N2").value == Approx(4));
+}
+
+TEST_CASE("points of a route in bodies are stated, and a route without others is not assessed",
+          "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  RouteLight light;
+  light.centre = {at(0, 5, 5), at(10, 5, 5)};
+  light.centre.in_bodies = 3;
+  auto checks = checks_of_route(scene, scene.routes.front(), light, en13);
+  CHECK(of(checks, "E1").conditions == Remarks{remark(RemarkId::points_in_bodies, 3, 5)});
+  light.centre.grid.clear();
+  checks = checks_of_route(scene, scene.routes.front(), light, en13);
+  for (const char* id : {"E1", "E2", "E4"})
+    CHECK(of(checks, id).verdict == CheckVerdict::not_assessed);
+}
+
+TEST_CASE("one luminaire that is fed has to light each tread", "[emergency][rules]") {
+  const std::vector<LitPoint> treads{at(0, 0.3, 0.05), at(1, 0.05, 0.2)};
+  const Check lit = of(checks_of_flight("way, flight 1", treads, en13), "E12s");
+  CHECK(lit.verdict == CheckVerdict::pass);
+  CHECK(*lit.value == Approx(0.2));
+  const Check dark = of(checks_of_flight("way, flight 1", treads, en13, {true, false}), "E12s");
+  CHECK(dark.verdict == CheckVerdict::fail);
+  CHECK(*dark.value == Approx(0.05));
+  CHECK(dark.worst->x == 1);
+  CHECK(checks_of_flight("way, flight 1", treads, nfpa).empty());
+}
+
 TEST_CASE("the initial illuminance is that before batteries and lamps have aged",
           "[emergency][rules]") {
   const SceneDescription scene = corridor();
@@ -120,15 +178,19 @@ TEST_CASE("each luminaire fails in turn, and the check names the worst", "[emerg
 TEST_CASE("wide routes are divided into strips of at most 2 m", "[emergency][rules]") {
   EscapeRoute route = corridor().routes.front();
   route.width_m = 5;
-  const RoutePoints points = points_of(route);
+  const auto of = [&] {
+    return points_of(route,
+                     [&](double aside_m) { return line_along(route, aside_m, route_grid_m); });
+  };
+  const RoutePoints points = of();
   double widest = 0;
-  for (const glm::dvec3& p : points.centre) widest = std::max(widest, std::abs(p.y));
+  for (const glm::dvec3& p : points.centre.places) widest = std::max(widest, std::abs(p.y));
   CHECK(widest == Approx(5.0 / 3));  // three strips, the middle one on the centre line
   double edge = 0;
-  for (const glm::dvec3& p : points.inner) edge = std::max(edge, std::abs(p.y));
+  for (const glm::dvec3& p : points.inner.places) edge = std::max(edge, std::abs(p.y));
   CHECK(edge == Approx(2.0));  // all but 0.5 m on each side
   route.width_m = 1.6;
-  for (const glm::dvec3& p : points_of(route).band) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
+  for (const glm::dvec3& p : of().band.places) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
 }
 
 TEST_CASE("a place without any light fails with infinite diversity, also without luminaires",

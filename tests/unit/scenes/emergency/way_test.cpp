@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "scenes/emergency/calculation_grid.hpp"
+
 using namespace luxodus;
 
 namespace {
@@ -89,4 +91,39 @@ TEST_CASE("the floor below a place is that of the nearest route or area", "[emer
   CHECK(floor_below(scene, {3, 1, 2.5}) == 0.0);
   CHECK(floor_below(scene, {12, 1, 5.5}) == 3.0);
   CHECK(floor_below(scene, {12, 1, 2.5}) == 0.0);  // the area is above it
+}
+TEST_CASE("gaps of a grid lie between neighbouring points, and cover a route and a rectangle",
+          "[emergency][way]") {
+  EscapeRoute route;
+  route.path = {{0, 0, 0}, {2, 0, 0}};
+  route.width_m = 1;
+  const auto line = [&](double aside_m) { return line_along(route, aside_m, 0.25); };
+  const CalculationGrid centre = grid_of({line(0)}, false);
+  CHECK(centre.places == along(route, 0, 0.25));
+  REQUIRE(centre.gaps.size() == 8);
+  CHECK(centre.gaps[3].from == centre.places[3]);
+  CHECK(centre.gaps[3].corners == std::array<uint32_t, 4>{3, 4, 4, 4});
+  const auto area_of = [](const CalculationGrid& grid) {
+    double area = 0;
+    for (const GridGap& gap : grid.gaps) area += glm::length(glm::cross(gap.along, gap.across));
+    return area;
+  };
+  const CalculationGrid band = grid_within(0.5, 0.25, line);
+  CHECK(band.places == within(route, 0.5, 0.25));
+  CHECK(area_of(band) == Approx(2));
+  AssessedArea area;
+  area.outline = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+  const CalculationGrid hall = grid_of(area, 0.5, 0.5);
+  CHECK(hall.places == within(area, 0.5, 0.5));
+  CHECK(area_of(hall) == Approx(6));
+}
+
+TEST_CASE("no gap of a grid crosses a riser", "[emergency][way]") {
+  const GridLeg level{{{0, 0, 0}, {1, 0, 0}}, {}};
+  const GridLeg stairs{{{1.1, 0, 0.2}, {1.4, 0, 0.4}, {1.6, 0, 0.4}}, {1, 0, 1}};
+  const CalculationGrid grid = grid_of({{level, stairs}}, true);
+  REQUIRE(grid.places.size() == 5);
+  REQUIRE(grid.gaps.size() == 2);
+  CHECK(grid.gaps[0].corners == std::array<uint32_t, 4>{0, 1, 1, 1});
+  CHECK(grid.gaps[1].corners == std::array<uint32_t, 4>{3, 4, 4, 4});
 }

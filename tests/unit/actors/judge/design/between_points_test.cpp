@@ -59,7 +59,8 @@ TEST_CASE("no points are added between others if the light varies smoothly", "[d
 TEST_CASE("moving luminaires opens no gap between the points of the grid",
           "[design][between][refine]") {
   // Spots at 3.06 m and 8.94 m light the whole route. Its ends and the points at 5.875 m and 6.125
-  // m would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark.
+  // m would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark. Moved
+  // spots whose cones hardly meet leave a sliver dark: the assessment finds it, and they stay.
   const test::TemporaryFolder folder;
   DesignOptions options;
   options.refine = true;
@@ -73,7 +74,6 @@ TEST_CASE("moving luminaires opens no gap between the points of the grid",
                                      "spacing_m = 0.5\n"),
       options);
   REQUIRE(result.luminaires.size() == 2);
-  REQUIRE(result.refined);
   constexpr double lit_m = 2.95;  // on each side of a spot
   double nearest = lit_m;
   for (const PlacedLuminaire& one : result.luminaires)

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/judge/assess/code_light.hpp"
 #include "actors/judge/design/record_design.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
@@ -29,9 +30,17 @@ std::string behind_a_wall(const std::string& behind, const std::string& settings
          behind + "[design]\nplace_signs = false\nfailure = \"none\"\n" + settings;
 }
 
-std::vector<StairFlight> stair_flights_in(const TemporaryFolder& folder, const std::string& text) {
+std::vector<StairFlight> flights_in(const TemporaryFolder& folder, const std::string& text) {
   const auto scene = test::described(folder.write("flights.toml", text));
-  return stair_flights_of(*scene, *scene->design);
+  return flights_beside_routes(*scene, *scene->design);
+}
+
+/// Flights of the first route.
+std::vector<FlightOfRoute> flights_on(const TemporaryFolder& folder, const std::string& text) {
+  const auto scene = test::described(folder.write("flights.toml", text));
+  const auto building = Building::make(code_scene(*scene, false), code_scenario(*scene, {}), 1);
+  REQUIRE(building.ok());
+  return RouteFloor(*building.value()).flights_of(scene->routes.front());
 }
 
 size_t behind(const DesignResult& result) {
@@ -45,10 +54,10 @@ size_t behind(const DesignResult& result) {
 TEST_CASE("flights are stairs of objects, copies included, and legs of routes that climb",
           "[design][flights]") {
   const TemporaryFolder folder;
-  const std::string room = test::box_room(20, 5, 8) + test::judged_2013;
+  const std::string room = test::box_room(20, 5, 8) + test::judged_2013 + test::spot_of_45_deg;
   const auto own =
-      stair_flights_in(folder, room + test::way_along(1, 9, 1) +
-                                   stairs(3, 2, "repeat = [{ count = 2, step = [6, 0, 0] }]"));
+      flights_in(folder, room + test::way_along(1, 9, 1) +
+                             stairs(3, 2, "repeat = [{ count = 2, step = [6, 0, 0] }]"));
   REQUIRE(own.size() == 2);
   CHECK(own[0].treads == 10);
   const auto treads = treads_of(own[0]);
@@ -57,18 +66,25 @@ TEST_CASE("flights are stairs of objects, copies included, and legs of routes th
     CHECK(glm::length(treads[static_cast<size_t>(i)] -
                       glm::dvec3(3 + 0.28 * (i + 0.5), 2.6, 0.17 * (i + 1))) < 1e-9);
   CHECK(own[1].lowest.x == Approx(own[0].lowest.x + 6));
-  // A ramp of 1 in 12 is no flight; a leg that descends by 30 degrees is one.
-  const auto of_route = stair_flights_in(
-      folder, room + test::route("down", "[1, 1, 3], [4, 1, 3], [9.2, 1, 0], [15, 1, 0]") +
-                  test::route("ramp", "[1, 4, 0.5], [7, 4, 0]"));
+  // A leg that descends by 30 degrees is a flight, whose treads follow from its rise where none are
+  // drawn; a ramp of 1 in 12 is none.
+  const auto of_route = flights_on(
+      folder, room + test::route("down", "[1, 1, 3], [4, 1, 3], [9.2, 1, 0], [15, 1, 0]"));
   REQUIRE(of_route.size() == 1);
   CHECK(of_route[0].name == "down, flight 1");
-  CHECK(of_route[0].lowest.x == Approx(9.2));
-  CHECK(of_route[0].treads == 18);
-  // A route over stairs adds no second flight.
-  CHECK(stair_flights_in(folder, room + stairs(3, 0.4) +
-                                     test::route("up", "[1, 1, 0], [3, 1, 0], [5.8, 1, 1.7]"))
-            .size() == 1);
+  REQUIRE(of_route[0].treads.size() == 18);
+  CHECK(of_route[0].treads.front().x == Approx(9.2));
+  CHECK(flights_on(folder, room + test::route("ramp", "[1, 4, 0.5], [7, 4, 0]")).empty());
+  // A flight that a route climbs is the route's, on the treads of the object.
+  const std::string climbed =
+      room + stairs(3, 0.4) + test::route("up", "[1, 1, 0], [3, 1, 0], [5.8, 1, 1.7]");
+  CHECK(flights_in(folder, climbed).empty());
+  const auto flights = flights_on(folder, climbed);
+  REQUIRE(flights.size() == 1);
+  REQUIRE(flights[0].treads.size() == 10);
+  for (int i = 0; i < 10; ++i)
+    CHECK(glm::length(flights[0].treads[static_cast<size_t>(i)] -
+                      glm::dvec3(3 + 0.28 * (i + 0.5), 1, 0.17 * (i + 1))) < 0.01);
 }
 
 TEST_CASE("each flight has a luminaire that lights all of it, which no rule for routes requires",

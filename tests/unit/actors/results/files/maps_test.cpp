@@ -52,8 +52,9 @@ std::vector<std::vector<double>> table_of(const std::string& csv) {
   std::string line;
   std::getline(in, line);
   CHECK(line ==
-        "x,y,z,direct_lx,indirect_lx,indirect_se_lx,total_lx,luminaires_direct_clear_air_lx,"
-        "point_direct_lx,point_luminaires_direct_clear_air_lx");
+        "x,y,z,direct_lx,indirect_lx,indirect_standard_error_lx,total_lx,"
+        "luminaires_direct_clear_air_lx,point_direct_lx,point_luminaires_direct_clear_air_lx,row,"
+        "column");
   while (std::getline(in, line)) {
     std::vector<double> row;
     std::istringstream cells(line);
@@ -117,6 +118,10 @@ TEST_CASE("the means in a plane's table are those of result.json, and extremes a
   const Json& plane = result["planes"][0];
   const auto rows = table_of(file_text(folder.path() / "planes" / "floor.csv"));
   REQUIRE(rows.size() == 15);
+  for (size_t i = 0; i < rows.size(); ++i) {  // 5 columns along x, 3 rows along y
+    CHECK(rows[i][10] == static_cast<double>(i / 5));
+    CHECK(rows[i][11] == static_cast<double>(i % 5));
+  }
   const auto value = [&](const char* key) { return plane[key]["value"].get<double>(); };
   CHECK(mean_of_column(rows, 3) == Approx(value("direct_illuminance")));
   CHECK(mean_of_column(rows, 4) == Approx(value("indirect_illuminance")));
@@ -350,8 +355,9 @@ TEST_CASE("patches and voxels in files hold the run's flux, in scene coordinates
 
   const std::string vtp = file_text(folder / "patches.vtp");
   CHECK(attribute(vtp, "NumberOfPolys") == std::to_string(scene.patch_count / 2));
-  const auto incident = vtk_floats(vtp, "incident_front [lx]");
-  const auto dark = vtk_floats(vtp, "incident_back [lx]");
+  CHECK(attribute(vtp, "NumberOfTuples") == std::to_string(scene.surfaces.size()));
+  const auto incident = vtk_floats(vtp, "incident_front_lx");
+  const auto dark = vtk_floats(vtp, "incident_back_lx");
   REQUIRE(incident.size() == scene.patch_count / 2);
   double lumens = 0, expected = 0;
   size_t at = 0;
@@ -375,13 +381,13 @@ TEST_CASE("patches and voxels in files hold the run's flux, in scene coordinates
   glm::dvec3 low{0};
   origin >> low.x >> low.y >> low.z;
   CHECK(glm::distance(low, glm::dvec3(10, 20, 0)) < 1e-5);
-  const auto absorbed = vtk_floats(vti, "absorbed [lm/m3]");
+  const auto absorbed = vtk_floats(vti, "absorbed_lm_m3");
   REQUIRE(absorbed.size() == scene.voxels.count());
   double sum = 0;
   for (const float a : absorbed) sum += static_cast<double>(a);
   CHECK(sum * std::pow(static_cast<double>(scene.voxels.edge), 3) ==
         Approx(readout.lumens(scene.blocks.media_power, 0, 0).value).epsilon(1e-4));
-  CHECK(vtk_floats(vti, "vector flux [lm/m2]").size() == 3 * absorbed.size());
+  CHECK(vtk_floats(vti, "vector_flux_lm_m2").size() == 3 * absorbed.size());
 }
 
 TEST_CASE("a patch drawn in patches.vtp lies where its light fell", "[display]") {
@@ -407,7 +413,7 @@ flux_lm = 100
                           1 << 14);
   REQUIRE(write_flux_maps(folder.path(), *run).ok());
   const std::string vtp = file_text(folder / "patches.vtp");
-  const auto incident = vtk_floats(vtp, "incident_front [lx]");
+  const auto incident = vtk_floats(vtp, "incident_front_lx");
   const auto brightest =
       static_cast<size_t>(std::max_element(incident.begin(), incident.end()) - incident.begin());
   // Points are doubles, connectivity is 64-bit: read from the same appended section.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "runtime/core/regular_file.hpp"
@@ -75,8 +77,8 @@ VtkSurface surface_example() {
   surface.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1e6 + 0.001, 1, 1}};
   surface.triangles = {{0, 1, 2}, {0, 2, 3}};
   surface.cell_data = {
-      {"illuminance [lx]", 1, std::vector<float>{1.5f, std::nanf("")}},
-      {"<odd> & \"name\" ä", 3, std::vector<double>{1, 2, 3, 4, 5, 6}},
+      {"illuminance_lx", 1, std::vector<float>{1.5f, std::nanf("")}},
+      {"<odd>&\"name\"ä", 3, std::vector<double>{1, 2, 3, 4, 5, 6}},
       {"material", 1, std::vector<int32_t>{7, -8}},
       {"object", 1, std::vector<int64_t>{int64_t{1} << 40, 0}},
   };
@@ -90,7 +92,7 @@ VtkVolume volume_example() {
   volume.cells = {3, 2, 4};
   std::vector<float> values(24);
   for (size_t i = 0; i < 24; ++i) values[i] = static_cast<float>(i);
-  volume.cell_data = {{"fluence [lx]", 1, values}};
+  volume.cell_data = {{"fluence_lx", 1, values}};
   return volume;
 }
 
@@ -122,11 +124,11 @@ TEST_CASE("a surface written for VTK is read back array by array", "[format][vtk
   CHECK(file.arrays.at("Points").components == 3);
   CHECK(file.arrays.at("connectivity").as<int64_t>() == std::vector<int64_t>{0, 1, 2, 0, 2, 3});
   CHECK(file.arrays.at("offsets").as<int64_t>() == std::vector<int64_t>{3, 6});
-  const FoundArray& lux = file.arrays.at("illuminance [lx]");
+  const FoundArray& lux = file.arrays.at("illuminance_lx");
   CHECK(lux.type == "Float32");
   CHECK(lux.as<float>()[0] == 1.5f);
   CHECK(std::isnan(lux.as<float>()[1]));
-  const FoundArray& odd = file.arrays.at("&lt;odd&gt; &amp; &quot;name&quot; ä");
+  const FoundArray& odd = file.arrays.at("&lt;odd&gt;&amp;&quot;name&quot;ä");
   CHECK(odd.type == "Float64");
   CHECK(odd.components == 3);
   CHECK(odd.as<double>() == std::vector<double>{1, 2, 3, 4, 5, 6});
@@ -143,10 +145,27 @@ TEST_CASE("a volume written for VTK has its extent, its place and its voxels", "
   CHECK_THAT(file.head, Contains("<VTKFile type=\"ImageData\""));
   CHECK_THAT(file.head, Contains("WholeExtent=\"0 3 0 2 0 4\" Origin=\"-1 0.1 2\" "
                                  "Spacing=\"0.5 0.25 1\""));
-  const std::vector<float> values = file.arrays.at("fluence [lx]").as<float>();
+  const std::vector<float> values = file.arrays.at("fluence_lx").as<float>();
   REQUIRE(values.size() == 24);
   CHECK(values[23] == 23.0f);
   CHECK(python_parses(folder, file.head));
+}
+
+TEST_CASE("names of surfaces are texts of the whole file, not of cells", "[format][vtk]") {
+  const test::TemporaryFolder folder;
+  VtkSurface surface = surface_example();
+  surface.surface_names = {"a b", "ü"};
+  REQUIRE(write_vtp(folder / "named.vtp", surface).ok());
+  std::ifstream in(folder / "named.vtp", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto names = text.find(
+      "<DataArray type=\"String\" Name=\"surface_names\" "
+      "NumberOfTuples=\"2\" format=\"ascii\">");
+  REQUIRE(names != std::string::npos);
+  CHECK(text.rfind("<FieldData>", names) != std::string::npos);
+  CHECK(names < text.find("<Piece"));
+  CHECK(text.find("97 32 98 0\n", names) < text.find("195 188 0\n", names));
+  CHECK(text.find("195 188 0\n", names) < text.find("</FieldData>", names));
 }
 
 TEST_CASE("a surface without triangles and a name without a file are handled", "[format][vtk]") {
@@ -176,6 +195,8 @@ TEST_CASE("data that VTK could not read are not written", "[format][vtk]") {
              Contains("'material' is there twice"));
   CHECK_THAT(surface_refusal([](VtkSurface& s) { s.cell_data[0].name = ""; }),
              Contains("needs a name"));
+  CHECK_THAT(surface_refusal([](VtkSurface& s) { s.cell_data[0].name = "illuminance [lx]"; }),
+             Contains("blanks or brackets"));
   CHECK_THAT(surface_refusal([](VtkSurface& s) { s.cell_data[0].components = 2; }),
              Contains("has 2 values"));
   CHECK_THAT(surface_refusal([](VtkSurface& s) { s.cell_data[0].components = 0; }),
