@@ -92,8 +92,8 @@ class Scheduler {
 
   // ---- the loop ----------------------------------------------------------------------------
 
-  /// How old the last reading of the CPU time may be when a turn begins. Reading it is a system call
-  /// of 270 ns, several times a short turn; once in this time it costs half a percent.
+  /// How old the last reading of the CPU time may be when a turn begins. Reading it is a system
+  /// call of 270 ns, several times a short turn; once in this time it costs half a percent.
   static constexpr Nanoseconds processor_resolution = microseconds(50);
 
   /// One turn, which never waits. Returns when the next is due: now or earlier if there is more to

@@ -85,6 +85,7 @@ class ZmqTransport final : public Transport {
   Result<std::string> secure(LaneSockets& lane, const std::string& endpoint, bool server,
                              const std::string& server_key);
   std::optional<Arrival> receive_from(Lane lane);
+  bool has_arrivals();
   void look_around();
   void watch_connections();
   void take_event(Lane lane);
@@ -98,7 +99,6 @@ class ZmqTransport final : public Transport {
   std::vector<std::string> names_;  // routing ids of nodes met, by number
   ZmqCounters counters_;
   int wake_descriptor_ = -1;
-  int timer_descriptor_ = -1;  // zmq_poll counts whole milliseconds; this ends waits on time
   bool open_to_all_ = false;   // listens or connects beyond this host without keys
   Nanoseconds look_at_ = 0;
   Nanoseconds remind_at_ = 0;
