@@ -310,10 +310,10 @@ void ZmqTransport::wait_until(Nanoseconds until) {
       {context_.door_descriptor(), POLLIN, 0},    {wake_descriptor_, POLLIN, 0},
   };
   const timespec most{left / seconds(1), left % seconds(1)};
-  const int ready = ::ppoll(items, std::size(items), &most, nullptr);  // a signal also ends it
-  for (const auto& lane : lanes_) lane->look_at = 0;
-  if (ready <= 0) return;
+  if (::ppoll(items, std::size(items), &most, nullptr) < 0) return;  // a signal also ends it
   const auto came = [](const pollfd& item) { return (item.revents & POLLIN) != 0; };
+  for (size_t i = 0; i < lanes; ++i)
+    if (came(items[i]) || !lanes_[i]->tells_arrivals) lanes_[i]->look_at = 0;
   if (came(items[5])) {
     uint64_t wakes = 0;
     (void)!::read(wake_descriptor_, &wakes, sizeof wakes);  // nothing to read is fine

@@ -267,7 +267,8 @@ TEST_CASE("a stack overflow under the running scheduler is reported in one line"
   CHECK(end.standard_error.find("fiber 0 (photon) overflowed its stack") != std::string::npos);
 }
 
-TEST_CASE("the longest turn counts CPU time, which short turns seldom read", "[runtime][scheduler]") {
+TEST_CASE("the longest turn counts CPU time, which short turns seldom read",
+          "[runtime][scheduler]") {
   struct SharedMachine final : Clock {
     Nanoseconds now() const override { return elapsed; }
     Nanoseconds processor() const override {
@@ -281,9 +282,7 @@ TEST_CASE("the longest turn counts CPU time, which short turns seldom read", "[r
   } machine;
   test::ScriptedSource source;
   Scheduler scheduler(test::small_limits(), machine, source);
-  const auto longest = [&] {
-    return static_cast<Nanoseconds>(scheduler.counters().longest_turn);
-  };
+  const auto longest = [&] { return static_cast<Nanoseconds>(scheduler.counters().longest_turn); };
   source.on_poll = [&] { machine.run(milliseconds(3)); };
   scheduler.turn();
   CHECK(longest() == milliseconds(3));
