@@ -346,7 +346,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   FaultRow row("the thread of a node is stuck for 1.5 s", *nodes.controller);
   REQUIRE(nodes.workers[1]->says("fault=pause node=1"));
   row.begins();
-  row.noticed(change_of(3, 1));
+  row.noticed(of_link("suspect", 3, 1));
   row.given_up(lost(1));
   REQUIRE(nodes.controller->says(flush_of(2), nodes.controller->now()));
   row.well(flush_of(1));
