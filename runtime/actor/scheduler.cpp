@@ -87,20 +87,27 @@ Wake Scheduler::wait_until(WaitList& list, Nanoseconds deadline, const char* rea
 }
 
 Nanoseconds Scheduler::turn() {
-  const Nanoseconds at = clock_.now();
-  const Nanoseconds began = clock_.processor();
-  const Nanoseconds due = take_turn();
-  // CPU time never exceeds elapsed time, so most turns need only this cheap check.
-  if (clock_.now() - at <= static_cast<Nanoseconds>(counters_.longest_turn)) return due;
-  const auto took = static_cast<uint64_t>(clock_.processor() - began);
-  counters_.longest_turn = std::max(counters_.longest_turn, took);
+  const Nanoseconds began = clock_.now();
+  if (began - processor_.at >= processor_resolution) processor_ = {began, clock_.processor()};
+  const Nanoseconds due = take_turn(began);
+  measure_turn(began, turn_ended_);
   return due;
 }
 
-Nanoseconds Scheduler::take_turn() {
+/// CPU time never exceeds elapsed time, so most turns need only a comparison. Two numbers bound a
+/// turn's CPU time from above: the elapsed time, in which other programs may have run, and the CPU
+/// time since the last reading, which includes turns since then. The smaller one is taken.
+void Scheduler::measure_turn(Nanoseconds began, Nanoseconds ended) {
+  const auto elapsed = static_cast<uint64_t>(ended - began);
+  if (elapsed <= counters_.longest_turn) return;
+  const auto taken = static_cast<uint64_t>(clock_.processor() - processor_.taken);
+  counters_.longest_turn = std::max(counters_.longest_turn, std::min(elapsed, taken));
+}
+
+Nanoseconds Scheduler::take_turn(Nanoseconds began) {
   ++counters_.turns;
   const size_t timers = rarely(Buggify::Site::few_timers) ? 1 : limits_.timers_per_turn;
-  counters_.timers_fired += timers_.run_due(clock_.now(), timers);
+  counters_.timers_fired += timers_.run_due(began, timers);
   const bool more_arrives = source_.poll();
   // Replies are sent before fibers take their time.
   if (handle_controls()) source_.send_out();
@@ -108,10 +115,10 @@ Nanoseconds Scheduler::take_turn() {
   run_fibers();
   counters_.fibers_live = fibers_.live();
   counters_.fibers_suspended = fibers_.suspended();
-  const Nanoseconds now = clock_.now();
-  const Nanoseconds shutdown_due = shutdown_.step(now);
+  turn_ended_ = clock_.now();
+  const Nanoseconds shutdown_due = shutdown_.step(turn_ended_);
   if (more_arrives || !controls_.empty() || fibers_.any_ready() || handoff_.waiting() > 0)
-    return now;
+    return turn_ended_;
   return std::min(timers_.next(), shutdown_due);
 }
 
@@ -129,6 +136,7 @@ bool Scheduler::handle_controls() {
 }
 
 void Scheduler::run_fibers() {
+  if (!fibers_.any_ready()) return;
   Nanoseconds before = clock_.now();
   const Nanoseconds end = before + limits_.fibers_per_turn;
   const size_t most = rarely(Buggify::Site::short_turn) ? 1 : limits_.resumes_per_turn;
@@ -156,10 +164,9 @@ void Scheduler::run() {
   for (;;) {
     const Nanoseconds due = turn();
     if (shutdown_.finished()) return;
-    const Nanoseconds now = clock_.now();
-    if (due <= now) continue;
+    if (due <= turn_ended_) continue;
     source_.wait_until(due);
-    counters_.waited += static_cast<uint64_t>(clock_.now() - now);
+    counters_.waited += static_cast<uint64_t>(clock_.now() - turn_ended_);
   }
 }
 

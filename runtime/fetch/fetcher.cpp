@@ -66,7 +66,8 @@ Fetcher::Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& obje
       jitter_(jitter),
       routes_(nodes_of(objects)),
       waiting_(objects.size()),
-      flights_("flights", config.flights, WhenEmpty::wait) {}
+      flights_("flights", config.flights, WhenEmpty::wait),
+      sequences_(config.flights) {}
 
 Fetcher::~Fetcher() {
   if (begins_soon_) timers_.cancel(begin_timer_);
@@ -80,7 +81,8 @@ Fetcher::~Fetcher() {
 
 void Fetcher::plan_memory(MemoryPlan& plan, const FetchConfig& config, size_t objects) {
   plan.add("objects received", config.receive_bytes, "receive_bytes: asked for and not yet built");
-  const size_t flight_bytes = sizeof(PendingFetch) + FixedPool<PendingFetch>::bytes_beside;
+  const size_t flight_bytes =
+      sizeof(PendingFetch) + FixedPool<PendingFetch>::bytes_beside + sizeof(uint64_t);
   plan.add("fetches", config.flights * flight_bytes + objects * sizeof(Wish) + sizeof(Fetcher),
            fmt::format("{} flights x {} B + {} objects x {} B + {} B, mostly histograms",
                        config.flights, flight_bytes, objects, sizeof(Wish), sizeof(Fetcher)));
@@ -140,7 +142,7 @@ void Fetcher::begin_flights() {
 void Fetcher::begin(const Wish& wish) {
   PendingFetch& flight = *flights_.take();
   flight.wish = wish;
-  flight.id = sender_.next_id();
+  take_id(flight, sender_.next_id());
   flight.timer = {};
   flight.questions = 0;
   flight.holder = nearest_holder(wish.object);
@@ -165,7 +167,7 @@ void Fetcher::end(PendingFetch& flight) {
     config_.trace->end(TraceKind::fetch, flight.trace_id, flight.wish.object);
   timers_.cancel(flight.timer);
   sender_.forget(flight.id, Kind::reply);
-  flight.id = {};
+  take_id(flight, {});
   flight.room.reset();
   flights_.give(flight);
   begin_soon();
@@ -173,9 +175,15 @@ void Fetcher::end(PendingFetch& flight) {
 
 Fetcher::PendingFetch* Fetcher::flight_of(const MessageId& id) {
   if (id.sequence == 0) return nullptr;
-  for (size_t i = 0; i < flights_.capacity(); ++i)
-    if (flights_.at(i).id == id) return &flights_.at(i);
-  return nullptr;
+  const auto at = std::find(sequences_.begin(), sequences_.end(), id.sequence);
+  if (at == sequences_.end()) return nullptr;
+  PendingFetch& flight = flights_.at(static_cast<size_t>(at - sequences_.begin()));
+  return flight.id == id ? &flight : nullptr;
+}
+
+void Fetcher::take_id(PendingFetch& flight, const MessageId& id) {
+  flight.id = id;
+  sequences_[flights_.index_of(flight)] = id.sequence;
 }
 
 // ---- asking
@@ -321,7 +329,7 @@ void Fetcher::found(const MessageId& id, uint8_t hops, const ObjectFound& answer
     routes_[holders[flight->holder].value].answered(clock_.now() - flight->asked_at);
   if (accept(*flight, std::move(bytes), hops, answer.answered_by)) return;
   sender_.forget(flight->id, Kind::reply);
-  flight->id = sender_.next_id();
+  take_id(*flight, sender_.next_id());
   flight->holder = (flight->holder + 1) % holders.size();
   ask(*flight);
 }

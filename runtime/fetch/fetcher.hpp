@@ -152,6 +152,7 @@ class Fetcher {
   size_t nearest_holder(uint32_t object) const;
   void end(PendingFetch& flight);
   PendingFetch* flight_of(const MessageId& id);
+  void take_id(PendingFetch& flight, const MessageId& id);
 
   void ask(PendingFetch& flight);
   bool ask_holder(PendingFetch& flight, NodeId holder);
@@ -176,6 +177,7 @@ class Fetcher {
   std::vector<RouteDelay> routes_;  // by holder
   Ring<Wish> waiting_;              // for room: every object at most once
   FixedPool<PendingFetch> flights_;
+  std::vector<uint64_t> sequences_;  // of the flights' ids, side by side: every answer is looked up
   TimerId begin_timer_;
   bool begins_soon_ = false;
   Counters counters_;

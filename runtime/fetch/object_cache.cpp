@@ -1,7 +1,8 @@
 // Memory never exceeds the budget: residents stay below it by one build's peak, at most one object
 // is being built or waits after its build, and it becomes resident only after evictions have made
 // room. The next build starts only then, so a builder on another thread works while the fibers
-// woken last are running.
+// woken last are running. Many small objects come in at one step: a turn for each would cost more
+// than they do.
 #include "runtime/fetch/object_cache.hpp"
 
 #include <fmt/core.h>
@@ -14,6 +15,11 @@
 namespace luxodus {
 
 namespace {
+
+/// Objects that come in at one step, and the time after which it begins no other: short against a
+/// turn of 1 ms, so that a builder that answers at once does not starve arrivals and fibers.
+constexpr int objects_of_a_step = 32;
+constexpr Nanoseconds step_time = microseconds(50);
 
 void check_cache(const CacheConfig& config) {
   if (config.largest_build_bytes == 0 || !(config.pinned_share >= 0) || config.pinned_share > 1)
@@ -92,7 +98,7 @@ Got ObjectCache::get(uint32_t object, bool traced, std::span<const uint32_t> ahe
   const Nanoseconds asked_at = clock_.now();
   if (fibers_.wait(entry.waiters, "fetch") != Wake::woken) return {Got::How::cancelled};
   wait_time_.add(clock_.now() - asked_at);
-  if (--to_run_ == 0 && ready_ != nullptr) step_soon();
+  if (--entry.to_run == 0 && ready_ != nullptr) step_soon();
   if (entry.built == nullptr) return {Got::How::unobtainable};
   return {Got::How::resident, entry.built.get()};
 }
@@ -155,28 +161,56 @@ void ObjectCache::built(uint32_t object, Result<std::shared_ptr<const BuiltObjec
   step_soon();
 }
 
-// A step does at most one build, and the next comes a nanosecond later: a timer set for now would
-// fire in the same turn, and a builder that answers at once would starve arrivals and fibers.
+// The next step comes a nanosecond later: a timer set for now would fire in the same turn.
 void ObjectCache::step_soon() {
-  if (std::exchange(steps_soon_, true)) return;
+  if (stepping_ || std::exchange(steps_soon_, true)) return;
   step_timer_ = timers_.set(clock_.now() + 1, owner_.own_task([this] { step(); }));
 }
 
 void ObjectCache::step() {
   steps_soon_ = false;
-  if (ready_ != nullptr && to_run_ == 0) {
-    Entry& entry = *std::exchange(ready_, nullptr);
-    if (ready_result_) {
-      come_in(entry, std::move(ready_result_).value());
-    } else {
-      ++counters_.build_failures;
-      if (log_failure_.may(clock_.now()))
-        log_error("fetch=build_failed object={} total={} text=\"{}\"", number_of(entry),
-                  counters_.build_failures, ready_result_.problem().text());
-      unobtainable(number_of(entry));
-    }
+  stepping_ = true;
+  const Nanoseconds end = clock_.now() + step_time;
+  bool more = true;
+  for (int n = 0; more && n < objects_of_a_step && clock_.now() <= end; ++n) more = step_once();
+  stepping_ = false;
+  if (more) step_soon();
+}
+
+/// Lets the built object come in, and starts the next build. False: nothing more can be done until
+/// fibers have run, the builder answers, or bytes arrive.
+bool ObjectCache::step_once() {
+  if (ready_ != nullptr && !take_ready()) return false;
+  if (in_builder_ || to_build_.empty()) return false;
+  start_build(*to_build_.pop_front());
+  return ready_ != nullptr || (!in_builder_ && !to_build_.empty());
+}
+
+/// False: there is no room before the fibers that were woken for another object have run.
+bool ObjectCache::take_ready() {
+  Entry& entry = *ready_;
+  if (ready_result_) {
+    if (!make_room(ready_result_.value()->bytes())) return false;
+    ready_ = nullptr;
+    come_in(entry, std::move(ready_result_).value());
+    return true;
   }
-  if (ready_ == nullptr && !in_builder_ && !to_build_.empty()) start_build(*to_build_.pop_front());
+  ready_ = nullptr;
+  ++counters_.build_failures;
+  if (log_failure_.may(clock_.now()))
+    log_error("fetch=build_failed object={} total={} text=\"{}\"", number_of(entry),
+              counters_.build_failures, ready_result_.problem().text());
+  unobtainable(number_of(entry));
+  return true;
+}
+
+/// Evicts what was used longest ago. False: that was woken for, and is still to be used.
+bool ObjectCache::make_room(size_t bytes) {
+  while (counters_.resident_bytes + bytes > config_.max_resident_bytes() && !unpinned_.empty()) {
+    if (unpinned_.front().to_run > 0) return false;
+    evict(*unpinned_.pop_front());
+  }
+  return true;
 }
 
 /// A shared object is not held before its turn, since no budget is charged for it yet.
@@ -188,7 +222,6 @@ bool ObjectCache::take_shared(Entry& entry) {
   if (!std::exchange(entry.bytes, {}).bytes.empty()) fetcher_.release(number_of(entry));
   ready_ = &entry;
   ready_result_ = std::move(built);
-  step_soon();
   return true;
 }
 
@@ -197,7 +230,6 @@ void ObjectCache::start_build(Entry& entry) {
   if (entry.bytes.bytes.empty()) {  // the other node released it meanwhile
     entry.state = ObjectState::requested;
     fetcher_.fetch(number_of(entry), *this, entry.traced);
-    if (!to_build_.empty()) step_soon();
     return;
   }
   ++counters_.builds;
@@ -211,10 +243,8 @@ void ObjectCache::start_build(Entry& entry) {
 void ObjectCache::come_in(Entry& entry, std::shared_ptr<const BuiltObject> built) {
   entry.charge = built->bytes();
   if (entry.charge > config_.largest_build_bytes) ++counters_.oversized;
-  while (counters_.resident_bytes + entry.charge > config_.max_resident_bytes() &&
-         !unpinned_.empty())
-    evict(*unpinned_.pop_front());
-  if (!unpinned_.empty() && rarely(config_.buggify, Buggify::Site::early_eviction))
+  if (!unpinned_.empty() && unpinned_.front().to_run == 0 &&
+      rarely(config_.buggify, Buggify::Site::early_eviction))
     evict(*unpinned_.pop_front());
   entry.built = std::move(built);
   entry.state = ObjectState::resident;
@@ -245,7 +275,7 @@ void ObjectCache::evict(Entry& entry) {
 }
 
 void ObjectCache::wake_waiters(Entry& entry) {
-  while (fibers_.wake_one(entry.waiters)) ++to_run_;
+  while (fibers_.wake_one(entry.waiters)) ++entry.to_run;
 }
 
 }  // namespace luxodus

@@ -8,8 +8,8 @@
 // If the nodes of a process share, an object that another of them has resident is neither fetched
 // nor built, but comes in as if it had been.
 //
-// Progress: an object comes in only after every fiber woken for the previous one has run. So each
-// wait ends with the object in hand, even if the cache has room for only one.
+// Progress: an object is evicted only after every fiber woken for it has run. So each wait ends
+// with the object in hand, even if the cache has room for only one.
 //
 // Thread rule: the node's thread; get() from a fiber. Fetching is in Fetcher.
 #pragma once
@@ -38,9 +38,9 @@ namespace luxodus {
 ///     └──────────────────────────────── room is needed ────────────────────────────────────┘
 ///
 /// Building lasts from the arrival of the bytes: in the builder's queue, in the builder, and then
-/// until the fibers woken for the previous object have run. An object that another node of the
-/// process has resident is queued at once; if that node releases it before its turn, it is
-/// requested.
+/// until there is room, for which fibers woken for other objects may have to run. An object that
+/// another node of the process has resident is queued at once; if that node releases it before its
+/// turn, it is requested.
 enum class ObjectState : uint8_t { absent, requested, building, resident };
 
 struct CacheConfig {
@@ -152,6 +152,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     bool traced = false;  // the fetch in flight
     size_t charge = 0;    // bytes while resident
     WaitList waiters;
+    size_t to_run = 0;  // fibers woken for it that have not run since
     /// From arrival until they are given to the builder; empty for a shared object.
     SharedBytes bytes;
   };
@@ -163,6 +164,9 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   void request(uint32_t object, bool traced = false);
   void step_soon();
   void step();
+  bool step_once();
+  bool take_ready();
+  bool make_room(size_t bytes);
   void start_build(Entry& entry);
   bool take_shared(Entry& entry);
   void come_in(Entry& entry, std::shared_ptr<const BuiltObject> built);
@@ -186,9 +190,9 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   bool in_builder_ = false;
   Entry* ready_ = nullptr;  // built, and not yet resident
   Result<std::shared_ptr<const BuiltObject>> ready_result_{nullptr};
-  size_t to_run_ = 0;  // fibers woken for an object that have not run since
   TimerId step_timer_;
   bool steps_soon_ = false;
+  bool stepping_ = false;
   Counters counters_;
   Nanoseconds build_began_ = 0;
   Histogram build_time_;  // of the builder

@@ -24,8 +24,9 @@ namespace luxodus {
 namespace limits {
 /// Requests in the mailbox: more than a turn brings, for this node and in transit.
 inline constexpr size_t part_requests = 512;
-/// Answers: as many as a node fetches at once, each twice.
-inline constexpr size_t part_answers = 128;
+/// Answers: as many as a node fetches at once, each twice; FetchConfig::flights is half of it at
+/// most.
+inline constexpr size_t part_answers = 512;
 }  // namespace limits
 
 class PartServer final

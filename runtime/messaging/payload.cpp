@@ -1,6 +1,7 @@
 #include "runtime/messaging/payload.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace luxodus {
 
@@ -12,7 +13,8 @@ constexpr size_t kept_rooms = 32;
 }  // namespace
 
 /// Reuses the smallest kept room that is large enough; otherwise the largest kept one is replaced
-/// by a new one, so that rooms do not accumulate.
+/// by a new one, so that rooms do not accumulate. New ones are up to an eighth longer where the
+/// limit allows it: payloads that grow little by little take a new room a few times only.
 PayloadRoom RoomPool::take(size_t bytes) {
   const size_t words = std::max<size_t>((bytes + sizeof(uint64_t) - 1) / sizeof(uint64_t), 1);
   const size_t wanted = words * sizeof(uint64_t);
@@ -31,7 +33,12 @@ PayloadRoom RoomPool::take(size_t bytes) {
     room = std::move(*best);
     kept_.erase(best);
   }
-  if (!fits) room = PayloadRoom(words);
+  if (!fits) {
+    const size_t step = std::max<size_t>(std::bit_floor(words) / 8, 1);
+    const size_t rounded = (words + step - 1) / step * step;
+    const bool allowed = lent_bytes_ + rounded * sizeof(uint64_t) <= max_bytes_;
+    room = PayloadRoom(allowed ? rounded : words);
+  }
   lent_bytes_ += room.size_bytes();
   forget_kept(max_bytes_ - std::min(max_bytes_, lent_bytes_));
   return room;

@@ -34,7 +34,8 @@ class ZmqContext {
   /// Two I/O threads: a single one would do all encryption of a host.
   static constexpr int io_threads_usual = 2;
 
-  /// Errors (exception): an invalid key.
+  /// Also makes malloc keep freed memory, in the whole process: see zmq_context.cpp. Errors
+  /// (exception): an invalid key.
   explicit ZmqContext(const std::vector<Admitted>& admitted, int io_threads = io_threads_usual);
   ~ZmqContext();
 

@@ -34,7 +34,7 @@ struct ZmqConfig {
   std::optional<KeyPair> keys = std::nullopt;
   bool insecure = false;
   /// High-water mark of a neighbour's queue, each way [frames]. Credit allows 5 classes x 2 kinds x
-  /// 4 long frames; only frames shorter than 0.6 KB reach this many, and then wait a beat. It
+  /// 16 long frames; only frames shorter than 0.6 KB reach this many, and then wait a beat. It
   /// bounds the memory for a neighbour that ignores credit: 4096 x 64 KB.
   int high_water_frames = 4096;
 };
@@ -85,6 +85,7 @@ class ZmqTransport final : public Transport {
   Result<std::string> secure(LaneSockets& lane, const std::string& endpoint, bool server,
                              const std::string& server_key);
   std::optional<Arrival> receive_from(Lane lane);
+  bool has_arrivals();
   void look_around();
   void watch_connections();
   void take_event(Lane lane);
@@ -98,8 +99,7 @@ class ZmqTransport final : public Transport {
   std::vector<std::string> names_;  // routing ids of nodes met, by number
   ZmqCounters counters_;
   int wake_descriptor_ = -1;
-  int timer_descriptor_ = -1;  // zmq_poll counts whole milliseconds; this ends waits on time
-  bool open_to_all_ = false;   // listens or connects beyond this host without keys
+  bool open_to_all_ = false;  // listens or connects beyond this host without keys
   Nanoseconds look_at_ = 0;
   Nanoseconds remind_at_ = 0;
 };

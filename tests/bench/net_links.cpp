@@ -1,14 +1,11 @@
-// net_bench [--seconds N]: the network alone, two nodes on two threads, one table: round trips of a
-// small request (one at a time), requests a second (64 at a time), and objects a second with the
-// size of a brick of smoke, of eight bricks, and of a geometry cell (8 at a time).
+// The network alone, two nodes on two threads, one table: round trips of a small request (one at a
+// time), requests a second (64 at a time), and objects a second with the size of a brick of smoke,
+// of eight bricks, and of a geometry cell (8 at a time).
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -16,9 +13,10 @@
 
 #include "runtime/net/network.hpp"
 #include "runtime/net/zmq_transport.hpp"
+#include "tests/bench/net_tables.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
-using namespace luxodus;
+namespace luxodus::bench {
 
 namespace {
 
@@ -154,21 +152,16 @@ void measure(const char* name, const Endpoints& where, bool curve, Nanoseconds s
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  spdlog::set_level(spdlog::level::err);
-  const bool said = argc == 3 && std::strcmp(argv[1], "--seconds") == 0;
-  const long n = said ? std::strtol(argv[2], nullptr, 10) : 2;
-  if ((argc != 1 && !said) || n < 1 || n > 600) {
-    fmt::print(stderr, "net_bench [--seconds 1..600]\n");
-    return 2;
-  }
+void print_links(Nanoseconds span) {
   const test::TemporaryFolder folder;
   const std::string path = "ipc://" + (folder / "link").string();
   const Endpoints tcp{"tcp://127.0.0.1:*", "tcp://127.0.0.1:*"};
   fmt::print("{:<12} {:>9} {:>9} {:>12} {:>11} {:>11} {:>11}\n", "transport", "p50 [us]",
              "p99 [us]", "questions/s", "16 KiB/s", "128 KiB/s", "1 MiB/s");
-  measure("inproc", {"inproc://first", "inproc://first-bulk"}, false, seconds(n));
-  measure("ipc", {path + ".control", path + ".bulk"}, false, seconds(n));
-  measure("tcp", tcp, false, seconds(n));
-  measure("tcp + CURVE", tcp, true, seconds(n));
+  measure("inproc", {"inproc://first", "inproc://first-bulk"}, false, span);
+  measure("ipc", {path + ".control", path + ".bulk"}, false, span);
+  measure("tcp", tcp, false, span);
+  measure("tcp + CURVE", tcp, true, span);
 }
+
+}  // namespace luxodus::bench

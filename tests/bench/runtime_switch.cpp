@@ -122,6 +122,49 @@ void print_messages(int repeats) {
   end_all(scheduler.fibers());
 }
 
+/// Answers each message by one to its partner.
+class Player final : public Actor<Player, ControlLane<Accepts<Nudge, 1, WhenFull::reject>>,
+                                  DataLane<Accepts<Ping, 1, WhenFull::reject>>> {
+ public:
+  explicit Player(Scheduler& scheduler) : Actor(scheduler, "player") {}
+  void on(const Nudge& nudge) { LUX_CHECK(give(nudge) == Offered::taken, "one ball"); }
+  void on(const Ping& ping) { LUX_CHECK(give(ping) == Offered::taken, "one ball"); }
+  Player* partner = nullptr;
+  uint64_t played = 0;
+
+ private:
+  template <class Ball>
+  Offered give(const Ball& ball) {
+    ++played;
+    return partner->offer(Ball{ball.number + 1});
+  }
+};
+
+/// Two actors that answer each other: on the control lane each message takes a turn.
+void print_ping_pong(int repeats) {
+  const SystemClock clock;
+  QuietSource source(clock);
+  SchedulerLimits limits;
+  limits.fibers = limits_for(2);
+  constexpr uint64_t messages = 200'000;
+  const auto measure = [&](const char* name, auto ball) {
+    Scheduler scheduler(limits, clock, source);
+    Player first(scheduler), second(scheduler);
+    first.partner = &second;
+    second.partner = &first;
+    first.start();
+    second.start();
+    LUX_CHECK(first.offer(ball) == Offered::taken, "its mailbox is empty");
+    print_cost(name, repeats, messages, [&] {
+      const uint64_t end = first.played + messages / 2;
+      while (first.played < end) scheduler.turn();
+    });
+    end_all(scheduler.fibers());
+  };
+  measure("ping-pong on the control lane, one way", Nudge{0});
+  measure("ping-pong on the data lane, one way", Ping{0});
+}
+
 /// For a node without neighbours.
 class NoTransport final : public Transport {
  public:
@@ -207,6 +250,7 @@ void print_switch(int repeats) {
   print_switches(repeats);
   print_scheduled(repeats);
   print_messages(repeats);
+  print_ping_pong(repeats);
   print_letters(repeats);
   print_timers(repeats);
 }

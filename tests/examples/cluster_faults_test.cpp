@@ -334,7 +334,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   ClusterText text = over_tcp(quick(3));
   // Its process answers for it on the wire, and has another node that keeps working.
   for (const char* name : {"n1", "n2"}) text.of_node[name] = "process = \"pair\"\n";
-  text.more += "[[faults.event]]\nkind = \"pause\"\nnode = \"n1\"\nat_s = 2\nlasts_s = 1.5\n";
+  text.more += "[[faults.event]]\nkind = \"pause\"\nnode = \"n1\"\nat_s = 5\nlasts_s = 1.5\n";
   const std::string cluster = write_cluster(folder, text);
   RunningCluster nodes;
   nodes.controller = node(cluster, "controller");
@@ -342,9 +342,11 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   nodes.workers.push_back(std::make_unique<Process>(
       LUX_PROGRAM,
       std::vector<std::string>{"node", "--config", cluster, "--name", "n1", "--name", "n2"}));
-  REQUIRE(nodes.workers[1]->says("fault=pause node=1"));
+  nodes.await_begin();
   FaultRow row("the thread of a node is stuck for 1.5 s", *nodes.controller);
-  row.noticed(change_of(3, 1));
+  REQUIRE(nodes.workers[1]->says("fault=pause node=1"));
+  row.begins();
+  row.noticed(of_link("suspect", 3, 1));
   row.given_up(lost(1));
   REQUIRE(nodes.controller->says(flush_of(2), nodes.controller->now()));
   row.well(flush_of(1));

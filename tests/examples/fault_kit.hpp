@@ -115,6 +115,8 @@ class FaultRow {
   FaultRow(std::string what, Process& log)
       : what_(std::move(what)), log_(log), from_(log.now()), since_(wall_s()) {}
 
+  /// The fault begins now; the log is read from where it was before, since this test may be late.
+  void begins() { since_ = wall_s(); }
   /// Waits until the log has these words.
   void noticed(const std::string& words) { noticed_ = await(words); }
   void given_up(const std::string& words) { given_up_ = await(words); }

@@ -272,6 +272,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.faults = cluster_.faults;
   node.one_clock = cluster_.hosts.size() == 1;
   node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
+  node.fetch.flights = std::min(cluster_.links.assemblies, limits::part_answers / 2);
   node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;
   return node;
 }

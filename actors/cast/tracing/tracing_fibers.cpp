@@ -403,14 +403,15 @@ void TracingFibers::close(OpenBatch& open) {
 }
 
 /// Millions of bins take longer than a turn may: other fibers run between steps. Totals are not
-/// given away meanwhile, so they always hold whole batches.
+/// given away meanwhile, nor until the lease is reported, which follows without a rest: so they
+/// always hold the batches of reported leases, whole.
 void TracingFibers::merge(OpenBatch& open) {
   ++merges_;
   if (scheduler_.rarely(Buggify::Site::short_turn)) rest();
   totals_[merging_].merge(open.scores, open.batch.group, [this] { rest(); });
-  --merges_;
   open.scores.scores.clear_in_steps([this] { rest(); });
   open.cleared = true;
+  --merges_;
 }
 
 /// Yields. A node that is ending still completes what has begun.

@@ -19,6 +19,12 @@ constexpr int64_t bins_of_a_step = 16384;
 RetryTimer retry_timer(const TracingWorkerConfig& config) {
   return {config.answer_patience, config.lost};
 }
+
+size_t batches_of(const Totals& totals) {
+  int64_t batches = 0;
+  for (int group = 0; group < totals.groups(); ++group) batches += totals.batches(group);
+  return static_cast<size_t>(batches);
+}
 }  // namespace
 
 TracingWorker::TracingWorker(const TracingWorkerConfig& config, const ShardPlan& shards,
@@ -259,7 +265,10 @@ void TracingWorker::flush() {
   room_wanted_ = false;
   packing_ = true;
   packed_leases_.swap(done_);
-  LUX_CHECK(offer(PackFlush{&work_->give_totals()}) == Offered::taken, "it packs one at a time");
+  Totals& totals = work_->give_totals();
+  // The coordinator cannot tell a batch from another: it would count one twice and another never.
+  LUX_CHECK(batches_of(totals) == packed_leases_.size(), "totals of other batches than were done");
+  LUX_CHECK(offer(PackFlush{&totals}) == Offered::taken, "it packs one at a time");
 }
 
 bool TracingWorker::encoder_is_free() const {

@@ -266,3 +266,44 @@ TEST_CASE("a stack overflow under the running scheduler is reported in one line"
   CHECK(end.signal == SIGSEGV);
   CHECK(end.standard_error.find("fiber 0 (photon) overflowed its stack") != std::string::npos);
 }
+
+TEST_CASE("the longest turn counts CPU time, which short turns seldom read",
+          "[runtime][scheduler]") {
+  struct SharedMachine final : Clock {
+    Nanoseconds now() const override { return elapsed; }
+    Nanoseconds processor() const override {
+      ++readings;
+      return taken;
+    }
+    void run(Nanoseconds span) { elapsed += span, taken += span; }
+    void run_others(Nanoseconds span) { elapsed += span; }
+    Nanoseconds elapsed = seconds(1), taken = 0;
+    mutable int readings = 0;
+  } machine;
+  test::ScriptedSource source;
+  Scheduler scheduler(test::small_limits(), machine, source);
+  const auto longest = [&] { return static_cast<Nanoseconds>(scheduler.counters().longest_turn); };
+  source.on_poll = [&] { machine.run(milliseconds(3)); };
+  scheduler.turn();
+  CHECK(longest() == milliseconds(3));
+  source.on_poll = [&] {
+    machine.run(milliseconds(1));
+    machine.run_others(milliseconds(50));
+  };
+  scheduler.turn();
+  CHECK(longest() == milliseconds(3));
+  // A thousand turns of 1 us: the CPU time is read once in `processor_resolution`.
+  machine.readings = 0;
+  source.on_poll = [&] { machine.run(microseconds(1)); };
+  for (int i = 0; i < 1000; ++i) scheduler.turn();
+  CHECK(machine.readings <= milliseconds(1) / Scheduler::processor_resolution + 1);
+  CHECK(longest() == milliseconds(3));
+  // After these, a turn that others interrupt is measured to that resolution.
+  source.on_poll = [&] {
+    machine.run(milliseconds(4));
+    machine.run_others(milliseconds(50));
+  };
+  scheduler.turn();
+  CHECK(longest() >= milliseconds(4));
+  CHECK(longest() <= milliseconds(4) + Scheduler::processor_resolution);
+}

@@ -116,7 +116,7 @@ TEST_CASE("the longest names give local socket names that the system accepts",
 }
 
 TEST_CASE("a node's network has the run's level and id, and its own number", "[runtime][config]") {
-  const ClusterConfig cluster = good(mixed + "[links]\nhop_limit = 7\nbulk_window_chunks = 8\n");
+  const ClusterConfig cluster = good(mixed + "[links]\nhop_limit = 7\nbulk_window_chunks = 32\n");
   const NetConfig net = net_config(cluster, id(2));
   CHECK(net.self == id(2));
   CHECK(net.nodes == 4);

@@ -267,7 +267,7 @@ TEST_CASE("an object of which all holders have wrong bytes is unobtainable", "[r
 
 TEST_CASE("an answer that has begun to arrive is awaited", "[runtime][fetch]") {
   Objects objects;
-  const uint32_t object = objects.add(10 * large, {b});
+  const uint32_t object = objects.add(40 * large, {b});
   FetchSetup setup;
   setup.fetch.timeouts.first = milliseconds(2);
   FetchCluster cluster(2, objects, setup);
@@ -279,7 +279,7 @@ TEST_CASE("an answer that has begun to arrive is awaited", "[runtime][fetch]") {
 
 TEST_CASE("a fetch that ends with some pieces received releases their room", "[runtime][fetch]") {
   Objects objects;
-  const uint32_t object = objects.add(10 * large, {b});
+  const uint32_t object = objects.add(40 * large, {b});
   FetchCluster cluster(2, objects, {},
                        [](NetConfig& config) { config.assembly_patience = seconds(60); });
   CacheRead reading{cluster[0], object};
@@ -352,7 +352,7 @@ TEST_CASE("a full outbox delays requests without using up a try", "[runtime][fet
 TEST_CASE("a fetcher that ends in the middle of a fetch leaves nothing behind",
           "[runtime][fetch]") {
   Objects objects;
-  const uint32_t object = objects.add(10 * large, {b});
+  const uint32_t object = objects.add(40 * large, {b});
   FetchCluster cluster(2, objects);
   cluster[0].cache.prefetch(std::array{object});
   for (int i = 0; i < 3; ++i) cluster.turn();

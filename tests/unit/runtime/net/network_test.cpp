@@ -81,7 +81,7 @@ TEST_CASE("a message whose pieces stop arriving is abandoned", "[runtime][networ
   Cluster pair(2, ring(2));
   pair.bring_up();
   const MessageId id = pair[1].network.next_id();
-  pair[0].network.send(b, id, ObjectFound{}, share(pattern(10 * defaults::bulk_chunk_bytes)));
+  pair[0].network.send(b, id, ObjectFound{}, share(pattern(2 * defaults::bulk_window_bytes)));
   pair[0].network.poll(pair.clock.now());  // one window goes out
   pair[1].network.poll(pair.clock.now());
   pair.stop(0);

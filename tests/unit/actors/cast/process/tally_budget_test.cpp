@@ -10,25 +10,9 @@
 
 using namespace luxodus;
 
-namespace {
-
-/// A tank of smoke with voxels so small that all bins take tens of megabytes.
-std::shared_ptr<const CompiledScene> fine_tank(double voxel_edge_m) {
-  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/smoke_tank.toml");
-  REQUIRE(read.scene);
-  auto description = std::make_shared<SceneDescription>(*read.scene);
-  description->run.batch_particles = 2048;
-  description->run.voxel_edge_m = voxel_edge_m;
-  auto compiled = compile_scene(description, find_scenario(*description, "").value(), {1});
-  REQUIRE(compiled.ok());
-  return compiled.value();
-}
-
-}  // namespace
-
 TEST_CASE("a full tally flushes, stays within its budget, and changes no bit", "[nodes][tally]") {
   spdlog::set_level(spdlog::level::err);
-  const auto scene = fine_tank(0.05);
+  const auto scene = fine_tank();
   StopRule stop;
   stop.particles = 40'000;
   LocalRun plain(scene, 1, 2);
@@ -52,7 +36,7 @@ TEST_CASE("a full tally flushes, stays within its budget, and changes no bit", "
 TEST_CASE("a single batch that exceeds the budget ends the run with the key to change",
           "[nodes][tally]") {
   spdlog::set_level(spdlog::level::off);
-  const auto scene = fine_tank(0.05);
+  const auto scene = fine_tank();
   StopRule stop;
   stop.particles = 40'000;
   NodesOptions options;

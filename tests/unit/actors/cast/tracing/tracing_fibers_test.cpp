@@ -1,5 +1,6 @@
 // Photon-threads let others run by the work they have done: a particle of a near-white room may
-// have a million rays. A tracer that only counts plays the long histories.
+// have a million rays. A tracer that only counts plays the long histories. The totals that they
+// hand over hold the batches of reported leases and no other, whenever they are taken.
 #include "actors/cast/tracing/tracing_fibers.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "actors/results/run/particle_portion.hpp"
+#include "tests/kit/encode_flush.hpp"
 #include "tests/kit/lone_actor.hpp"
 #include "tests/unit/actors/cast/process/library_scene.hpp"
 #include "tests/unit/actors/cast/tracing/noted_port.hpp"
@@ -90,4 +92,43 @@ TEST_CASE("photon-threads let others run after a bounded number of rays and of p
     CHECK(usual.most_rays >= 1000);
     CHECK(usual.most_rays <= fibers * limits::rays_per_portion);
   }
+}
+
+TEST_CASE("totals hold the batches of the reported leases, whenever they may be taken",
+          "[tracing]") {
+  const auto scene = fine_tank();
+  const size_t in_work = GENERATE(1u, 2u);
+  INFO(in_work << " batches in work at once");
+  test::LoneNode node;
+  Work work;
+  test::NotedPort port;
+  PhotonConfig config;
+  config.fibers = 3;
+  config.open_batches = in_work;
+  TracingFibers tracing(*scene, GeometryAccess{}, 1, config, node.scheduler, port,
+                        [&](const CompiledScene&, const GeometryAccess&, uint64_t) {
+                          return std::make_unique<CountingTracer>(work, 1);
+                        });
+  tracing.start();
+  constexpr size_t batches = 6;
+  for (size_t i = 0; i < batches; ++i) tracing.add(10 + i, static_cast<int64_t>(i));
+  size_t reported = 0, taken = 0;
+  // A flush may take the totals at any time that they may be given: here, at every one.
+  const auto take = [&] {
+    if (!tracing.may_give()) return;
+    const size_t now = port.done.size() - std::exchange(reported, port.done.size());
+    const auto gain = decode_flush(test::encode_flush(tracing.give_totals()),
+                                   static_cast<int>(scene->groups.size()), scene->layout.totals());
+    REQUIRE(gain.ok());
+    CHECK(gain->batches() == static_cast<int64_t>(now));
+    taken += now;
+  };
+  const auto watch = [&] {
+    do take();
+    while (node.scheduler.fibers().yield() != Wake::cancelled);
+  };
+  REQUIRE(node.scheduler.fibers().start("watch", watch));
+  while (taken < batches) node.scheduler.turn();
+  CHECK(taken == batches);
+  node.end_fibers();
 }

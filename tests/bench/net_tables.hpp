@@ -1,0 +1,17 @@
+// The tables that net_bench prints. One thread.
+#pragma once
+
+#include <cstddef>
+
+#include "runtime/core/clock.hpp"
+
+namespace luxodus::bench {
+
+/// Round trips, requests and objects a second of the network alone, by transport; each figure is
+/// measured for `span`.
+void print_links(Nanoseconds span);
+/// Objects a second that fibers fetch, and their processor time, by size and number of fibers; only
+/// one row if these are given, that is, not 0.
+void print_fetches(Nanoseconds span, size_t bytes, size_t fibers);
+
+}  // namespace luxodus::bench
