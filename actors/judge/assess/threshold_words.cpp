@@ -27,9 +27,11 @@ const char* heading_of(Sought sought) {
 /// "at least 0.4 to 1.9 (in 9), always (in 2), never (in 3)".
 std::string range_words(const ThresholdRange& range) {
   std::vector<std::string> parts;
+  const std::string low = fmt::format("{:.3g}", range.low),
+                    high = fmt::format("{:.3g}", range.high);
   if (range.found > 0)
-    parts.push_back(fmt::format("{} {:.3g} to {:.3g} (in {})", range.above ? "at least" : "at most",
-                                range.low, range.high, range.found));
+    parts.push_back(fmt::format("{} {} (in {})", range.above ? "at least" : "at most",
+                                low == high ? low : low + " to " + high, range.found));
   for (const auto& [count, word] : {std::pair{range.always, "always"},
                                     {range.never, "never"},
                                     {range.not_assessed, "not assessed"}})

@@ -10,9 +10,10 @@ namespace {
 std::string range_text(const Texts& t, const ThresholdRange& range) {
   std::string out;
   const auto add = [&](const std::string& part) { out += (out.empty() ? "" : "; ") + part; };
+  const std::string low = t.number(range.low), high = t.number(range.high);
   if (range.found > 0)
-    add(t.say(range.above ? "thresholds.from" : "thresholds.up_to", t.number(range.low),
-              t.number(range.high), range.found));
+    add(t.say(range.above ? "thresholds.from" : "thresholds.up_to",
+              low == high ? low : low + " … " + high, range.found));
   if (range.always > 0) add(t.say("thresholds.always", range.always));
   if (range.never > 0) add(t.say("thresholds.never", range.never));
   if (range.not_assessed > 0) add(t.say("thresholds.not_assessed", range.not_assessed));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "actors/judge/assess/reality_mode.hpp"
+#include "actors/judge/assess/threshold_words.hpp"
 #include "actors/results/run/run_in_pieces.hpp"
 #include "scenes/emergency/smoke_laws.hpp"
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
@@ -255,4 +256,28 @@ TEST_CASE("nodes find the same thresholds as threads") {
       CHECK(by_nodes[i].at.error == by_threads[i].at.error);
     }
   }
+}
+
+TEST_CASE("thresholds are said for each sign and quantity, with the number of views") {
+  const auto row = [](ThresholdEnd end, double value, const std::string& eyes = "") {
+    ThresholdRecord out;
+    out.sign = "exit";
+    out.eyes = eyes;
+    out.read = true;
+    out.end = end;
+    if (end == ThresholdEnd::found) out.at = {value, 0.1};
+    return out;
+  };
+  const std::vector<ThresholdRecord> rows{
+      row(ThresholdEnd::found, 2), row(ThresholdEnd::found, 0.5), row(ThresholdEnd::nowhere, 0),
+      row(ThresholdEnd::not_assessed, 0), row(ThresholdEnd::found, 9, "23")};
+  CHECK(thresholds_text(rows) ==
+        "thresholds: extinction, as a factor on all smoke; in brackets the number of views\n"
+        "  sign \"exit\" read: at most 0.5 to 2 (in 2), never (in 1), not assessed (in 1)\n");
+  CHECK(thresholds_text({row(ThresholdEnd::found, 2)}).find("at most 2 (in 1)") !=
+        std::string::npos);
+  const std::string csv = thresholds_csv(rows).text();
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 6);
+  CHECK(csv.find("exit,23,read,found,9,0.1") != std::string::npos);
+  CHECK(thresholds_text({}).empty());
 }
