@@ -102,8 +102,8 @@ counts a silhouette, but no glow without an edge.
 **Colour (T17).** Red is seen 1.33 times as far as blue in white smoke and 1.37 times in black
 smoke, and white between them. That is the quotient of the wavelengths, 1.36, by an extinction that
 is proportional to the inverse of the wavelength. In black smoke this is more than the 1.2 to 1.3 of
-the source, whose smoke of kerosene had an exponent of 0.6 to 0.85. Nothing of this was seen by
-people: the source computed it from extinctions as well.
+the source, which belong to exponents of 0.6 to 0.85. Nothing of this was seen by people: the source
+computed it from extinctions as well.
 
 **Clear air (T18, T20).** Levels at the limit of acuity are 0.7 to 1.1. EXIT is read no farther than
 people identify it with confidence, but its stroke is called seen up to 150 m, where they identified
