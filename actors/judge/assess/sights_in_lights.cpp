@@ -261,28 +261,29 @@ std::vector<Sight> SightsInLights::sights_if(size_t row, const SignsChanged& cha
   SignView view = rows_.front()[row].view;
   for (double* size : {&view.width_arcmin, &view.height_arcmin, &view.detail_arcmin})
     *size *= changed.size;
-  const AssessmentSettings& people = scene_.assessment;
-  std::vector<Sight> out;
-  for (size_t e = 0; e <= people.other_eyes.size(); ++e) {
-    const OtherEyes* other = e > 0 ? &people.other_eyes[e - 1] : nullptr;
-    const double age =
-        other != nullptr ? other->age_years.value_or(people.age_years) : people.age_years;
-    const auto judged = [&](bool as_new) {
-      const SignLook look =
-          look_if(*faced, changed, as_new,
-                  other != nullptr ? faced->veils_of_other_eyes[e - 1] : faced->veils_cd_m2);
-      return judge_sight(sign, view,
-                         other != nullptr && other->protan ? as_protan_eyes_see(look) : look,
-                         rules_for(age));
-    };
-    Sight sight = judged(false);
-    if (judged_.ageing.any()) {
-      Sight as_new = judged(true);
-      if (is_worse(as_new, sight)) sight = std::move(as_new);
-    }
-    out.push_back(std::move(sight));
-  }
+  const auto sight_by = [&](const OtherEyes& eyes, const std::vector<double>& veils) {
+    return worse_sight(sign, view, eyes,
+                       [&](bool as_new) { return look_if(*faced, changed, as_new, veils); });
+  };
+  const auto& others = scene_.assessment.other_eyes;
+  std::vector<Sight> out{sight_by(OtherEyes{}, faced->veils_cd_m2)};
+  for (size_t e = 0; e < others.size(); ++e)
+    out.push_back(sight_by(others[e], faced->veils_of_other_eyes[e]));
   return out;
+}
+
+/// The worse of the sights in aged and in new light.
+Sight SightsInLights::worse_sight(const Sign& sign, const SignView& view, const OtherEyes& eyes,
+                                  const std::function<SignLook(bool as_new)>& look) const {
+  const SightRules rules = rules_for(eyes.age_years.value_or(scene_.assessment.age_years));
+  const auto judged = [&](bool as_new) {
+    const SignLook seen = look(as_new);
+    return judge_sight(sign, view, eyes.protan ? as_protan_eyes_see(seen) : seen, rules);
+  };
+  Sight sight = judged(false);
+  if (!judged_.ageing.any()) return sight;
+  Sight as_new = judged(true);
+  return is_worse(as_new, sight) ? as_new : sight;
 }
 
 /// Judges in aged light and, if luminaires age, in new light; the worse verdict counts.
@@ -310,18 +311,11 @@ void SightsInLights::judge_by_other_eyes(const Faced& faced, size_t light) {
   const AssessmentSettings& people = scene_.assessment;
   row.by_other_eyes.clear();
   for (size_t e = 0; e < people.other_eyes.size(); ++e) {
-    const OtherEyes& eyes = people.other_eyes[e];
-    const SightRules rules = rules_for(eyes.age_years.value_or(people.age_years));
-    const auto judged = [&](size_t mixture) {
-      const SignLook look = look_in(faced, mixture, faced.veils_of_other_eyes[e][mixture]);
-      return judge_sight(scene_.signs[faced.sign], row.view,
-                         eyes.protan ? as_protan_eyes_see(look) : look, rules);
-    };
-    Sight sight = judged(judged_.aged_mixture(light));
-    if (judged_.ageing.any()) {
-      Sight as_new = judged(judged_.new_mixture(light));
-      if (is_worse(as_new, sight)) sight = std::move(as_new);
-    }
+    Sight sight =
+        worse_sight(scene_.signs[faced.sign], row.view, people.other_eyes[e], [&](bool as_new) {
+          const size_t mixture = as_new ? judged_.new_mixture(light) : judged_.aged_mixture(light);
+          return look_in(faced, mixture, faced.veils_of_other_eyes[e][mixture]);
+        });
     if (!judged_.ageing.new_light_known && sight.verdict == SightVerdict::legible) {
       sight.verdict = SightVerdict::not_assessed;
       sight.reason = remark(RemarkId::initial_flux_unknown);

@@ -81,6 +81,8 @@ class SightsInLights {
   /// With changed signs, in aged or in new light. `veils`: by mixture.
   SignLook look_if(const Faced& faced, const SignsChanged& changed, bool as_new,
                    const std::vector<double>& veils) const;
+  Sight worse_sight(const Sign& sign, const SignView& view, const OtherEyes& eyes,
+                    const std::function<SignLook(bool as_new)>& look) const;
   SightRules rules_for(double age_years) const;
   void judge_view(const Faced& faced, size_t light);
   void judge_by_other_eyes(const Faced& faced, size_t light);
