@@ -123,21 +123,14 @@ class Estimate {
 /// All thresholds that the job asks for. Errors: as find_thresholds; the interrupt flag.
 Result<ThresholdRows> thresholds_of(const AssessmentJob& job, const Assessment& assessed,
                                     ProgressLine& line) {
-  ThresholdRows out;
+  if (job.find.empty()) return ThresholdRows{};
   const auto scenario = judged_scenario(*job.scene, job.options.scenario);
   if (!scenario) return scenario.problem();
-  for (const Sought sought : job.find) {
-    const AssessProgress told = [&](const std::string& what, double share) {
-      line.put(fmt::format("thresholds of {}: {}: {:.0f} %", name_of(sought), what, 100 * share),
-               false, share);
-    };
-    auto found = find_thresholds(
-        {*job.scene, scenario.value(), assessed, job.options, interrupt_flag(), told}, sought);
-    if (!found) return found.problem();
-    out.insert(out.end(), std::make_move_iterator(found->begin()),
-               std::make_move_iterator(found->end()));
-  }
-  return out;
+  const AssessProgress told = [&](const std::string& what, double share) {
+    line.put(fmt::format("{}: {:.0f} %", what, 100 * share), false, share);
+  };
+  return find_thresholds(
+      {*job.scene, scenario.value(), assessed, job.options, interrupt_flag(), told}, job.find);
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {

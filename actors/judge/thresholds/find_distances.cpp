@@ -59,13 +59,11 @@ ThresholdRows find_distances(const ThresholdSearch& search) {
     for (const SightRow& row : search.assessed.sights)
       if (row.from == subject_of(route)) walks[{row.sign, row.height_m}][row.along_m] = &row;
     for (const auto& [sign_and_height, walk] : walks) {
-      const auto sign =
-          std::find_if(search.scene.signs.begin(), search.scene.signs.end(),
-                       [&](const Sign& s) { return s.name == sign_and_height.first; });
+      const SightRow& any = *walk.begin()->second;
       for (size_t e = 0; e < eyes.size(); ++e)
         for (const bool read : {true, false})
-          add_crossings(points_along(people, walk, e, read), route, *sign,
-                        record_for(Sought::distance, *walk.begin()->second, eyes[e], read), out);
+          add_crossings(points_along(people, walk, e, read), route, sign_of(search.scene, any),
+                        record_for(Sought::distance, any, eyes[e], read), out);
     }
   }
   return out;

@@ -69,11 +69,11 @@ Result<void> trace_at(const ThresholdSearch& search, int step, const std::set<Vi
 }
 
 /// The factor at which a view is no longer read, where irritant smoke comes first.
-void end_where_it_stings(const ThresholdSearch& search, const SightRow& row, const Sign& sign,
+void end_where_it_stings(const ThresholdSearch& search, const SightRow& row,
                          ThresholdRecord& record) {
   SightRules rules;
   rules.irritant_smoke = search.scene.assessment.irritant_smoke.value_or(false);
-  const double stings = stinging_extinction(sign, row.view, rules);
+  const double stings = stinging_extinction(sign_of(search.scene, row), row.view, rules);
   if (!record.read || !(row.sight.extinction > 0) || std::isinf(stings)) return;
   const double factor = stings / row.sight.extinction;
   const bool later = record.end == ThresholdEnd::found && record.at.value < factor;
@@ -92,9 +92,7 @@ ThresholdRecord record_of_search(const ThresholdSearch& search, const SearchedVi
                                             : ThresholdEnd::nowhere;
   if (crossing) record.at = value_of(*crossing);
   if (crossing) record.above = crossing->above;
-  const auto sign = std::find_if(search.scene.signs.begin(), search.scene.signs.end(),
-                                 [&](const Sign& one) { return one.name == view.row->sign; });
-  end_where_it_stings(search, *view.row, *sign, record);
+  end_where_it_stings(search, *view.row, record);
   if (record.end == ThresholdEnd::found)
     record.amounts_to = {record.at.value * view.row->sight.extinction, "1/m"};
   return record;

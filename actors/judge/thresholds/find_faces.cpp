@@ -60,10 +60,9 @@ QuantityRecord amount_of(const ThresholdSearch& search, Sought sought, const Sig
 void add_records(const ThresholdSearch& search, const SightsInLights& sights, size_t number,
                  Sought sought, ThresholdRows& out) {
   const SightRow& row = sights.rows(0)[number];
-  const auto sign = std::find_if(search.scene.signs.begin(), search.scene.signs.end(),
-                                 [&](const Sign& one) { return one.name == row.sign; });
+  const Sign& sign = sign_of(search.scene, row);
   const auto eyes = eyes_of(search.scene);
-  const bool own_light = sign->lighting != SignLighting::external;
+  const bool own_light = sign.lighting != SignLighting::external;
   const bool searched = !sights_of(row).empty() && (sought == Sought::size || own_light) &&
                         !sights.sights_if(number, {}).empty();
   for (size_t e = 0; e < eyes.size(); ++e)
@@ -82,13 +81,13 @@ void add_records(const ThresholdSearch& search, const SightsInLights& sights, si
       if (!found) continue;
       record.at = value_of(*found);
       record.above = found->above;
-      record.amounts_to = amount_of(search, sought, *sign, found->at.value);
+      record.amounts_to = amount_of(search, sought, sign, found->at.value);
     }
 }
 
 }  // namespace
 
-Result<ThresholdRows> find_faces(const ThresholdSearch& search, Sought sought) {
+Result<ThresholdRows> find_faces(const ThresholdSearch& search, const std::vector<Sought>& sought) {
   const auto judged = judged_with_signs_apart(search.scene, search.scenario);
   if (!judged) return judged.problem();
   AssessOptions options = search.options;
@@ -99,8 +98,9 @@ Result<ThresholdRows> find_faces(const ThresholdSearch& search, Sought sought) {
     if (auto ok = sights.trace(round, {true, false}, search.interrupt, search.progress); !ok)
       return ok.problem();
   ThresholdRows out;
-  for (size_t row = 0; row < sights.rows(0).size(); ++row)
-    add_records(search, sights, row, sought, out);
+  for (const Sought one : sought)
+    for (size_t row = 0; row < sights.rows(0).size(); ++row)
+      add_records(search, sights, row, one, out);
   return out;
 }
 

@@ -110,9 +110,8 @@ Views views_now(const ThresholdSearch& search, const std::vector<Shaft>& shafts)
   Views out;
   const size_t eyes = eyes_of(search.scene).size();
   for (const SightRow& row : search.assessed.sights) {
-    const auto sign = std::find_if(search.scene.signs.begin(), search.scene.signs.end(),
-                                   [&](const Sign& one) { return one.name == row.sign; });
-    const auto number = static_cast<size_t>(sign - search.scene.signs.begin());
+    const auto number =
+        static_cast<size_t>(&sign_of(search.scene, row) - search.scene.signs.data());
     const std::vector<std::vector<LevelPoint>> none(eyes);
     ByHeight& view = out.emplace(key_of(row), ByHeight{&row, number, none, none}).first->second;
     view.add(shafts[number].now, sights_of(row));

@@ -1,5 +1,6 @@
 #include "actors/judge/thresholds/looks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace luxodus {
@@ -19,6 +20,11 @@ bool decided_by_light(const Sight& sight) {
 
 ViewKey key_of(const SightRow& row) {
   return {row.from.kind, row.from.name, row.eye.x, row.eye.y, row.eye.z, row.sign};
+}
+
+const Sign& sign_of(const SceneDescription& scene, const SightRow& row) {
+  return *std::find_if(scene.signs.begin(), scene.signs.end(),
+                       [&](const Sign& sign) { return sign.name == row.sign; });
 }
 
 std::vector<std::string> eyes_of(const SceneDescription& scene) {

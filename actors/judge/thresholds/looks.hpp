@@ -31,6 +31,9 @@ using ThresholdRows = std::vector<ThresholdRecord>;
 using ViewKey = std::tuple<SubjectKind, std::string, double, double, double, std::string>;
 ViewKey key_of(const SightRow& row);
 
+/// The sign of a view. Requires: a view of the scene.
+const Sign& sign_of(const SceneDescription& scene, const SightRow& row);
+
 /// The eyes by which a view is judged: those of the stated age, "", and the scene's other eyes.
 std::vector<std::string> eyes_of(const SceneDescription& scene);
 

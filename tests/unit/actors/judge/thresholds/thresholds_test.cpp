@@ -34,7 +34,7 @@ struct Assessed {
     assessment = std::move(made).value();
   }
   Result<ThresholdRows> tried(Sought sought) const {
-    return find_thresholds({*scene, scenario, assessment, options, nobody, no_report}, sought);
+    return find_thresholds({*scene, scenario, assessment, options, nobody, no_report}, {sought});
   }
   ThresholdRows found(Sought sought) const {
     auto rows = tried(sought);
@@ -237,6 +237,26 @@ TEST_CASE("thresholds of other eyes stand beside those of the stated age") {
     }
     CHECK(compared >= 1);
   }
+}
+
+TEST_CASE("several thresholds are found as each by itself", "[thresholds]") {
+  const Assessed room(smoky);
+  const std::vector<Sought> sought{Sought::size, Sought::distance, Sought::luminance};
+  const auto together = find_thresholds(
+      {*room.scene, room.scenario, room.assessment, room.options, nobody, no_report}, sought);
+  REQUIRE(together.ok());
+  size_t rows = 0;
+  for (const Sought one : sought) {
+    const auto alone = room.found(one);
+    rows += alone.size();
+    for (const ThresholdRecord& row : alone)
+      CHECK(std::any_of(together->begin(), together->end(), [&](const ThresholdRecord& other) {
+        return other.sought == one && other.sign == row.sign && other.along_m == row.along_m &&
+               other.read == row.read && other.end == row.end &&
+               (row.end != ThresholdEnd::found || other.at.value == row.at.value);
+      }));
+  }
+  CHECK(together->size() == rows);
 }
 
 TEST_CASE("nodes find the same thresholds as threads") {
