@@ -245,8 +245,7 @@ double stinging_extinction(const Sign& sign, const SignView& view, const SightRu
     return view.distance_m > stinging_distance_m(sign, extinction, rules);
   };
   if (stings(irritant_from)) return irritant_from;
-  double clear = irritant_from, dense = 2 * irritant_from;
-  while (!stings(dense)) dense *= 2;
+  double clear = irritant_from, dense = 2;  // there the law's distance is 0
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = (clear + dense) / 2;
     (stings(middle) ? dense : clear) = middle;
