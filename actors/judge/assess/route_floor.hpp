@@ -8,12 +8,6 @@
 
 namespace luxodus {
 
-/// A part of the floor of about one height, between two risers.
-struct Tread {
-  glm::dvec3 middle{0};
-  double depth_m = 0;  // along the route
-};
-
 /// A leg of a route that climbs stairs.
 struct FlightOfRoute {
   std::string name;  // "way, flight 1"

@@ -64,6 +64,30 @@ inline AssessmentRecord recorded(const std::string& text, const AssessOptions& o
   return record_of(*described_text(text), assessed(text, options), "1.2.3");
 }
 
+/// The first check of a rule.
+inline const Check& check_of(const Assessment& a, RuleId id) {
+  for (const Check& check : a.checks)
+    if (check.rule.id == id) return check;
+  FAIL("no check");
+  return a.checks.front();
+}
+
+/// A point source of 1000 lm, whose emergency flux of 500 lm is the rated one. `position` in the
+/// scene file's syntax.
+inline std::string rated_lamp(const std::string& name, const std::string& position) {
+  return "\n[[emitter]]\nname = \"" + name + R"("
+shape = "point"
+distribution = "isotropic"
+position = )" +
+         position + R"(
+flux_lm = 1000
+emergency = "non-maintained"
+emergency_flux = 500
+maintenance_factor = 1
+emergency_flux_is = "rated"
+)";
+}
+
 inline std::string with_smoke(double extinction, double albedo) {
   return room + "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = " +
          std::to_string(extinction) + "\nalbedo = " + std::to_string(albedo) + "\n";

@@ -8,16 +8,10 @@
 namespace luxodus {
 namespace {
 
+using test::check_of;
 using test::TemporaryFolder;
 
 constexpr double degrees = std::numbers::pi / 180;
-
-const Check& check_of(const Assessment& a, RuleId id) {
-  for (const Check& check : a.checks)
-    if (check.rule.id == id) return check;
-  FAIL("no check");
-  return a.checks.front();
-}
 
 /// The value at the points of the grid, where the check states it.
 std::optional<double> on_grid(const Check& check) {

@@ -5,6 +5,8 @@
 namespace luxodus {
 namespace {
 
+using test::check_of;
+
 /// Ten steps of 0.17 m by 0.28 m from x = 4 to 6.8 m, and the landing that they end at.
 std::string stair(const char* underside) {
   return fmt::format(R"(
@@ -38,30 +40,11 @@ operation = "emergency"
 }
 
 std::string lamp(double x, double z) {
-  return fmt::format(R"(
-[[emitter]]
-name = "lamp at {0}"
-shape = "point"
-distribution = "isotropic"
-position = [{0}, 0, {1}]
-flux_lm = 1000
-emergency = "non-maintained"
-emergency_flux = 500
-maintenance_factor = 1
-emergency_flux_is = "rated"
-)",
-                     x, z);
+  return test::rated_lamp(fmt::format("lamp at {}", x), fmt::format("[{}, 0, {}]", x, z));
 }
 
 std::string way(const char* path, double width = 1.2) {
   return fmt::format("[[route]]\nname = \"way\"\npath = [{}]\nwidth = {}\n", path, width);
-}
-
-const Check& check_of(const Assessment& a, RuleId id) {
-  for (const Check& check : a.checks)
-    if (check.rule.id == id) return check;
-  FAIL("no check");
-  return a.checks.front();
 }
 
 bool has(const Remarks& remarks, RemarkId id) {

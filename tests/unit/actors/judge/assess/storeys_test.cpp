@@ -6,22 +6,6 @@
 namespace luxodus {
 namespace {
 
-std::string lamp(const char* name, const char* position) {
-  return fmt::format(R"(
-[[emitter]]
-name = "{}"
-shape = "point"
-distribution = "isotropic"
-position = {}
-flux_lm = 1000
-emergency = "non-maintained"
-emergency_flux = 500
-maintenance_factor = 1
-emergency_flux_is = "rated"
-)",
-                     name, position);
-}
-
 std::string room(const char* name, const char* low, const char* high) {
   return fmt::format(
       "[[object]]\nname = \"{}\"\nshape = \"room\"\nlow = {}\nhigh = {}\nmaterial = \"black5\"\n",
@@ -32,9 +16,10 @@ const std::string failed = "[[scenario]]\nname = \"failed\"\noperation = \"emerg
 
 /// A room with its ceiling at 2.9 m, beside a landing at 2.7 m, which is nearer to its lamp than
 /// the area in the room.
-const std::string beside_a_landing =
-    room("hall", "[0, -2, 0]", "[8, 2, 2.9]") + room("landing", "[9, -2, 2.7]", "[14, 2, 5.4]") +
-    lamp("lower", "[7.5, 0, 2.87]") + lamp("upper", "[11, 0, 5.37]") + failed + R"(
+const std::string beside_a_landing = room("hall", "[0, -2, 0]", "[8, 2, 2.9]") +
+                                     room("landing", "[9, -2, 2.7]", "[14, 2, 5.4]") +
+                                     test::rated_lamp("lower", "[7.5, 0, 2.87]") +
+                                     test::rated_lamp("upper", "[11, 0, 5.37]") + failed + R"(
 [[open_area]]
 name = "hall"
 outline = [[1, -1.5], [3, -1.5], [3, 1.5], [1, 1.5]]
@@ -81,7 +66,7 @@ TEST_CASE("a low luminaire stands above its own floor, not above that of the sto
           "[assess][storeys]") {
   const Assessment a = test::assessed(room("ground floor", "[0, -2, 0]", "[8, 2, 2.7]") +
                                           room("upper floor", "[0, -2, 2.75]", "[8, 2, 5.4]") +
-                                          lamp("low", "[4, 0, 2.85]") + failed +
+                                          test::rated_lamp("low", "[4, 0, 2.85]") + failed +
                                           "[[route]]\nname = \"way\"\npath = [[1, 0, 2.75], [7, 0, "
                                           "2.75]]\nwidth = 1\n",
                                       test::codes_alone());
