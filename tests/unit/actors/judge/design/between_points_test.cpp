@@ -56,30 +56,52 @@ TEST_CASE("no points are added between others if the light varies smoothly", "[d
   CHECK(result.between.least < 5);
 }
 
-TEST_CASE("moving luminaires opens no gap between the points of the grid",
-          "[design][between][refine]") {
-  // Spots at 3.06 m and 8.94 m light the whole route. Its ends and the points at 5.875 m and 6.125
-  // m would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark. Moved
-  // spots whose cones hardly meet leave a sliver dark: the assessment finds it, and they stay.
-  const test::TemporaryFolder folder;
+namespace {
+
+/// A corridor under two spots that light 2.95 m on each side, refined from these places on.
+DesignResult refined_spots(const test::TemporaryFolder& folder, const std::string& path,
+                           const std::string& places) {
   DesignOptions options;
   options.refine = true;
-  const auto result = test::designed(
-      folder.write("scene.toml", test::box_room(12, 2, 3) + test::judged_2013 +
-                                     test::spot_of_45_deg +
-                                     test::route("corridor", "[0.125, 1, 0], [11.875, 1, 0]", 0.3) +
-                                     "[design]\nexisting = \"removed\"\nplace_signs = false\n"
-                                     "failure = \"none\"\nmargin = 1\nplace_tolerance_m = 0\n"
-                                     "places = [[3.06, 1, 2.97], [8.94, 1, 2.97]]\n"
-                                     "spacing_m = 0.5\n"),
+  return test::designed(
+      folder.write("scene.toml",
+                   test::box_room(12, 2, 3) + test::judged_2013 + test::spot_of_45_deg +
+                       test::route("corridor", path, 0.3) +
+                       "[design]\nexisting = \"removed\"\nplace_signs = false\n"
+                       "failure = \"none\"\nmargin = 1\nplace_tolerance_m = 0\nplaces = " +
+                       places + "\nspacing_m = 0.5\n"),
       options);
+}
+
+/// Requires that the spots leave no gap at 6 m, in the middle between them.
+void check_that_cones_meet(const DesignResult& result) {
   REQUIRE(result.luminaires.size() == 2);
-  constexpr double lit_m = 2.95;  // on each side of a spot
+  constexpr double lit_m = 2.95;
   double nearest = lit_m;
   for (const PlacedLuminaire& one : result.luminaires)
     nearest = std::min(nearest, std::abs(one.candidate.position.x - 6));
   CHECK(nearest < lit_m);
   CHECK(result.between.least > 0.99);
+}
+
+}  // namespace
+
+TEST_CASE("moving luminaires opens no gap between the points of the grid",
+          "[design][between][refine]") {
+  const test::TemporaryFolder folder;
+  // Spots at 3.06 m and 8.94 m light the whole route. Its ends and the points at 5.875 m and 6.125
+  // m would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark. Wherever
+  // they are moved, their cones hardly meet, and the assessment finds a dark sliver: they stay.
+  const auto stays =
+      refined_spots(folder, "[0.125, 1, 0], [11.875, 1, 0]", "[[3.06, 1, 2.97], [8.94, 1, 2.97]]");
+  check_that_cones_meet(stays);
+  CHECK_FALSE(stays.refined);
+  // The ends of a shorter route are brighter under spots that are farther apart, and still meet.
+  const auto moves =
+      refined_spots(folder, "[0.375, 1, 0], [11.625, 1, 0]", "[[3.25, 1, 2.97], [8.75, 1, 2.97]]");
+  check_that_cones_meet(moves);
+  REQUIRE(moves.refined);
+  CHECK(moves.refined->after > moves.refined->before);
 }
 
 }  // namespace luxodus
