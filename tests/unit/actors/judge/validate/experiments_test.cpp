@@ -8,6 +8,8 @@
 
 #include "actors/judge/validate/experiment_report.hpp"
 #include "actors/judge/validate/experiment_scene.hpp"
+#include "scenes/emergency/mean_observer.hpp"
+#include "scenes/emergency/sight.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::light {
@@ -72,6 +74,34 @@ TEST_CASE("every experiment says its source, and claims something of its trials"
   }
   CHECK(ids == std::set<std::string>{"T1", "T2", "T5", "T6", "T8", "T12", "T14", "T16", "T17",
                                      "T18", "T20"});
+}
+
+TEST_CASE("the levels at which the mean observer reads are those of T8 on the page",
+          "[validate][experiments]") {
+  std::ifstream page(std::string(LUX_SOURCE_DIR) + "/docs/validation/experiments.md");
+  double least = 1e9, most = 0;
+  bool of_t8 = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("### ")) of_t8 = line.starts_with("### T8");
+    if (line.starts_with("At the threshold")) of_t8 = false;
+    if (!of_t8 || !line.starts_with("| ") || line.starts_with("| trial")) continue;
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, '|');) cells.push_back(cell);
+    const double factor = std::stod(cells.at(6));
+    least = std::min(least, factor);
+    most = std::max(most, factor);
+  }
+  const auto reads_at = [](double level) {
+    ObservedView view{.age_years = 23, .distance_m = 8, .extinction = 1};
+    view.reading_level = level;
+    return standing_in_reading(view).observer;
+  };
+  REQUIRE(least < most);
+  CHECK(reads_at(level_read * least * 0.95) == MeanObserver::no);
+  CHECK(reads_at(level_read * least * 1.05) == MeanObserver::between);
+  CHECK(reads_at(level_read * most * 0.95) == MeanObserver::between);
+  CHECK(reads_at(level_read * most * 1.05) == MeanObserver::yes);
 }
 
 TEST_CASE("an experiment is named by its id, several by a part of their titles",
