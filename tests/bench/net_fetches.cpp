@@ -15,13 +15,13 @@
 #include "runtime/core/processor_time.hpp"
 #include "runtime/fetch/part_server.hpp"
 #include "runtime/net/zmq_transport.hpp"
+#include "tests/bench/net_pair.hpp"
 #include "tests/bench/net_tables.hpp"
 
 namespace luxodus::bench {
 
 namespace {
 
-constexpr NodeId asker{0}, holder{1};
 const SystemClock system_clock;
 
 /// Objects of equal size, which the holder keeps in memory.
@@ -57,16 +57,6 @@ struct Keeping final : ObjectBuilder {
     client.built(object, {std::make_shared<Kept>(std::move(bytes))});
   }
 };
-
-NetConfig config_of(NodeId self) {
-  NetConfig config;
-  config.self = self;
-  config.incarnation = {1000u + self.value};
-  config.nodes = 2;
-  config.edges = {{asker, holder}};
-  config.identity.node = self;
-  return config;
-}
 
 /// A cache of a few objects: nearly every one that is asked for must be fetched.
 CacheConfig small_cache(size_t object_bytes) {

@@ -13,6 +13,7 @@
 
 #include "runtime/net/network.hpp"
 #include "runtime/net/zmq_transport.hpp"
+#include "tests/bench/net_pair.hpp"
 #include "tests/bench/net_tables.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
@@ -20,23 +21,12 @@ namespace luxodus::bench {
 
 namespace {
 
-constexpr NodeId asker{0}, holder{1};
 constexpr size_t object_bytes[] = {16 << 10, 128 << 10, 1 << 20};
 constexpr size_t max_object_bytes = 1 << 20;
 constexpr size_t questions_at_once = 64;
 constexpr size_t objects_at_once = 8;
 
 const SystemClock system_clock;
-
-NetConfig config_of(NodeId self) {
-  NetConfig config;
-  config.self = self;
-  config.incarnation = {1000u + self.value};
-  config.nodes = 2;
-  config.edges = {{asker, holder}};
-  config.identity.node = self;
-  return config;
-}
 
 /// Sends or answers requests; those for object 0 are answered "not here", those for object n with n
 /// bytes.
