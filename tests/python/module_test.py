@@ -206,7 +206,8 @@ class Runs(Module):
         table = np.genfromtxt(out / "planes" / "desks.csv", delimiter=",", names=True)
         desks = run.planes["desks"]
         np.testing.assert_array_equal(desks.illuminance_lx.ravel(), table["total_lx"])
-        np.testing.assert_array_equal(desks.standard_error_lx.ravel(), table["indirect_standard_error_lx"])
+        np.testing.assert_array_equal(
+            desks.standard_error_lx.ravel(), table["indirect_standard_error_lx"])
         np.testing.assert_array_equal(desks.grid_m[..., 0].ravel(), table["x"])
         np.testing.assert_array_equal(desks.grid_m[..., 1].ravel(), table["y"])
 
