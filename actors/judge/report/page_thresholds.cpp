@@ -1,4 +1,6 @@
 // Values at which signs are just read and just seen, as a table of the report.
+#include <algorithm>
+
 #include "actors/judge/record/threshold_record.hpp"
 #include "actors/judge/report/page.hpp"
 
@@ -27,15 +29,21 @@ std::string thresholds_table(const PageParts& parts) {
   const auto ranges = ranges_of(parts.a.thresholds);
   if (ranges.empty()) return "";
   std::string rows;
-  for (const ThresholdRange& range : ranges)
-    rows += "<tr>" + html_cell(escaped(t(std::string("thresholds.of.") + name_of(range.sought)))) +
-            html_cell(escaped(range.sign)) +
-            html_cell(escaped(t(range.read ? "thresholds.read" : "thresholds.seen"))) +
-            html_cell(escaped(range_text(t, range))) + "</tr>\n";
+  for (const ThresholdRange& read : ranges) {
+    if (!read.read) continue;
+    const auto seen = std::find_if(ranges.begin(), ranges.end(), [&](const ThresholdRange& one) {
+      return !one.read && one.sought == read.sought && one.sign == read.sign;
+    });
+    rows += "<tr>" + html_cell(escaped(t(std::string("thresholds.of.") + name_of(read.sought)))) +
+            html_cell(escaped(read.sign)) + html_cell(escaped(range_text(t, read))) +
+            html_cell(seen == ranges.end() ? "" : escaped(range_text(t, *seen))) + "</tr>\n";
+  }
+  std::string head;
+  for (const char* key :
+       {"thresholds.quantity", "column.sign", "thresholds.read", "thresholds.seen"})
+    head += "<th>" + escaped(t(key)) + "</th>";
   return subheading(t("thresholds.heading")) + paragraph(t("thresholds.lead")) +
-         "<table>\n<thead><tr><th>" + escaped(t("thresholds.quantity")) + "</th><th>" +
-         escaped(t("column.sign")) + "</th><th></th><th>" + escaped(t("thresholds.values")) +
-         "</th></tr></thead>\n<tbody>\n" + rows + "</tbody>\n</table>\n";
+         "<table>\n<thead><tr>" + head + "</tr></thead>\n<tbody>\n" + rows + "</tbody>\n</table>\n";
 }
 
 }  // namespace luxodus
