@@ -63,6 +63,12 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
        "none [cd/m2], e.g. 0.84,12,75. Pictures of equal exposure can be compared: the text "
        "\"Exposure\" of a PNG file says its own",
        {.otherwise = "each picture's own"}},
+      {"--white",
+       &choices.white,
+       "What PNG files show as white: the light of all sources together (lamps); the light on the "
+       "surfaces in view, as far as an eye adapts to it: less where it is dim or warm (adapted); "
+       "or D65, so that colours stay as they are (d65)",
+       {.choices = {"lamps", "adapted", "d65"}}},
       {"--display-white",
        &choices.monitor.white_cd_m2,
        "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
@@ -134,6 +140,9 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
     if (!exposure) return exposure.problem();
     picture.exposure = exposure.value();
   }
+  picture.white = choices.white == "adapted" ? PictureWhite::adapted
+                  : choices.white == "d65"   ? PictureWhite::d65
+                                             : PictureWhite::lamps;
   picture.human.monitor = choices.monitor;
   if (auto read = read_sight(choices.sight, picture.human); !read) return read.problem();
   if (!(choices.monitor.white_cd_m2 > choices.monitor.black_cd_m2))

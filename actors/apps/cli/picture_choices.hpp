@@ -19,6 +19,7 @@ struct PictureChoices {
   std::optional<uint64_t> paths;
   std::string time, error;
   std::string exposure;
+  std::string white = "lamps";
   MonitorModel monitor;
   std::vector<std::string> sight;  // limits to apply; empty: all
 };

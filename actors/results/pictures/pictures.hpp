@@ -35,6 +35,13 @@ inline constexpr uint64_t max_view_bytes = uint64_t{20} << 30;
 inline constexpr uint64_t max_growing_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
+/// What PNG files show as white. Luminances stay.
+enum class PictureWhite : uint8_t {
+  lamps,    // the light of all sources together, if it looks white
+  adapted,  // what an eye adapts to: the light on the surfaces in view, as far as it adapts
+  d65       // D65: colours as they are
+};
+
 struct PictureOptions {
   /// On average; a maximum if one of the two limits below ends a picture earlier.
   int paths_per_pixel = 28;
@@ -51,6 +58,7 @@ struct PictureOptions {
   /// paths; otherwise some are allocated where the filter leaves most error (even_paths).
   bool raw = false;
   std::optional<Exposure> exposure;  // of plain pictures; nothing: each has its own
+  PictureWhite white = PictureWhite::lamps;
   HumanTone human;  // monitor and limits of sight of human views; angles are those of each camera
   /// When set, the current work ends within a pixel, and incomplete pictures are not written. Null:
   /// no interruption.

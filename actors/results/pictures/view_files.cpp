@@ -13,8 +13,10 @@
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/formats/false_colour_png.hpp"
 #include "actors/results/formats/plot_axis.hpp"
+#include "actors/results/pictures/light_in_view.hpp"
 #include "actors/results/pictures/signs_in_view.hpp"
 #include "scenes/light/optics/chromaticity.hpp"
+#include "scenes/light/vision/adapted_white.hpp"
 #include "scenes/light/vision/tone.hpp"
 
 namespace luxodus {
@@ -133,8 +135,21 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
 /// temperatures. Flames alone stay orange.
 constexpr double min_white_kelvin = 2500, max_white_kelvin = 10000, max_white_duv = 0.02;
 
-/// The picture as seen by an eye adapted to the scene's lamps, on a monitor whose white is D65.
-XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
+/// Changes colours only: each pixel keeps its luminance.
+template <class Shown>
+void recolour(XyzPicture& picture, const Shown& shown) {
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    float* p = &picture.xyz[3 * i];
+    const Xyz colour{static_cast<double>(p[0]), static_cast<double>(p[1]),
+                     static_cast<double>(p[2])};
+    const Xyz seen = shown(colour);
+    const double scale = seen[1] > 0 ? colour[1] / seen[1] : 0;
+    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c] * scale);
+  }
+}
+
+/// As seen by an eye adapted to the scene's lamps, on a monitor whose white is D65.
+void balance_by_lamps(const CompiledScene& scene, XyzPicture& picture) {
   Xyz light{0, 0, 0};
   for (const Group& g : scene.groups) {
     for (int b = 0; b < scene.bands.count(); ++b) {
@@ -147,18 +162,34 @@ XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
   const ColourTemperature white = correlated_colour_temperature(light);
   if (white.kelvin < min_white_kelvin || white.kelvin > max_white_kelvin ||
       white.duv > max_white_duv) {
-    return picture;
+    return;
   }
-  for (size_t i = 0; i < picture.pixels(); ++i) {
-    float* p = &picture.xyz[3 * i];
-    const Xyz colour{static_cast<double>(p[0]), static_cast<double>(p[1]),
-                     static_cast<double>(p[2])};
-    const Xyz seen = adapt_white(colour, light, d65_white);
-    // Keeps the pixel's luminance: adaptation is to change colours only.
-    const double scale = seen[1] > 0 ? colour[1] / seen[1] : 0;
-    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c] * scale);
+  recolour(picture, [&](const Xyz& colour) { return adapt_white(colour, light, d65_white); });
+}
+
+/// A picture of another size than the traced one, such as a first one, is balanced by the same
+/// light.
+XyzPicture white_balanced(const CompiledScene& scene, const ShownView& view, XyzPicture picture) {
+  if (view.white == PictureWhite::lamps) balance_by_lamps(scene, picture);
+  if (view.white != PictureWhite::adapted) return picture;
+  if (const auto light = light_on_surfaces(view.traced)) {
+    const AdaptedWhite white(*light, view.human.monitor.white_cd_m2);
+    recolour(picture, [&](const Xyz& colour) { return white.on_monitor(colour); });
   }
   return picture;
+}
+
+/// The text "White" of PNG files.
+std::string white_text(const ShownView& view) {
+  if (view.white == PictureWhite::d65) return "D65";
+  if (view.white == PictureWhite::lamps) return "light of all sources";
+  const auto light = light_on_surfaces(view.traced);
+  if (!light) return "D65: no lit surface is in view";
+  const ColourTemperature of = correlated_colour_temperature(*light);
+  return fmt::format(
+      "light on the surfaces in view, {:.0f} K, {:.3g} cd/m2, as far as an eye adapts to it "
+      "(Fairchild 1991)",
+      of.kelvin, (*light)[1]);
 }
 
 PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::string& description) {
@@ -235,8 +266,8 @@ std::string limits_of_sight(const HumanTone& human) {
 }
 
 /// The picture as an eye in front of it would see the scene.
-PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
-                   HumanTone human) {
+PngImage human_png(const LocalRun& run, const Camera& camera, const ShownView& view,
+                   const XyzPicture& balanced, HumanTone human) {
   human.degrees_per_pixel = degrees_per_pixel(camera);
   const MonitorModel& monitor = human.monitor;
   std::vector<ImageText> texts = texts_of(run, camera);
@@ -244,6 +275,7 @@ PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& 
   texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", monitor.black_cd_m2));
   texts.emplace_back("Degrees per pixel", fmt::format("{:.6g}", human.degrees_per_pixel));
   texts.emplace_back("Limits of sight", limits_of_sight(human));
+  texts.emplace_back("White", white_text(view));
   return png_of(tone_human(balanced, human), texts,
                 fmt::format("What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko "
                             "1997), shown on a monitor of {:g} cd/m2; luminance data is in the EXR "
@@ -251,13 +283,13 @@ PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& 
                             monitor.white_cd_m2));
 }
 
-PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
-                   const Exposure& exposure) {
+PngImage plain_png(const LocalRun& run, const Camera& camera, const ShownView& view,
+                   const XyzPicture& balanced, const Exposure& exposure) {
   std::vector<ImageText> texts = texts_of(run, camera);
   texts.emplace_back("Exposure", text_of(exposure));
+  texts.emplace_back("White", white_text(view));
   return png_of(tone_plain(balanced, exposure.curve()), texts,
-                "One exposure, white balanced, as a camera takes it; luminance data is in the EXR "
-                "file");
+                "One exposure, as a camera takes it; luminance data is in the EXR file");
 }
 
 /// Enlarges a picture of half the size, linearly between pixels.
@@ -294,6 +326,7 @@ ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOp
     : traced(std::move(picture)),
       paths(paths_per_pixel),
       human(options.human),
+      white(options.white),
       exposure(options.exposure) {
   if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
   raw = options.raw || !filtered;
@@ -314,18 +347,18 @@ double sign_in(const LocalRun& run, const Camera& camera, const ShownView& view)
 /// `light`: what `view` shows, of the camera's size.
 PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const ShownView& view,
                   const XyzPicture& light) {
-  const XyzPicture balanced = white_balanced(run.scene(), light);
-  if (!human) return plain_png(run, camera, balanced, shown_exposure(run, camera, view));
+  const XyzPicture balanced = white_balanced(run.scene(), view, light);
+  if (!human) return plain_png(run, camera, view, balanced, shown_exposure(run, camera, view));
   HumanTone tone = view.human;
   tone.sign_cd_m2 = sign_in(run, camera, view);
-  return human_png(run, camera, balanced, tone);
+  return human_png(run, camera, view, balanced, tone);
 }
 
 }  // namespace
 
 Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view) {
   if (view.exposure) return *view.exposure;
-  return exposure_of(white_balanced(run.scene(), view.shown()), sign_in(run, camera, view));
+  return exposure_of(white_balanced(run.scene(), view, view.shown()), sign_in(run, camera, view));
 }
 
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {

@@ -27,6 +27,7 @@ struct ShownView {
   std::optional<FilteredView> filtered;  // empty if there are too few paths
   bool raw;
   HumanTone human;
+  PictureWhite white;
   std::optional<Exposure> exposure;  // of PNG files; nothing: the picture's own
 };
 
