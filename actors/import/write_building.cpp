@@ -261,7 +261,7 @@ std::string room_text(const BuildingRoom& room) {
 }
 
 std::string exit_text(const BuildingExit& exit) {
-  return fmt::format("\n[[emphasis]]\nname = {}\nkind = \"{}\"\nposition = {}\n# ifc_guid = {}\n",
+  return fmt::format("\n[[emphasis]]\nname = {}\nkind = \"{}\"\nposition = {}\nifc_guid = {}\n",
                      toml_text(exit.name), exit.final_exit ? "final_exit" : "exit_door",
                      point_text(exit.position), toml_text(exit.guid));
 }

@@ -64,7 +64,7 @@ double age_factor(double age_years) {
 
 double luminance_threshold(double background_cd_m2, double size_arcmin, bool darker,
                            const Eye& eye) {
-  const double background = std::max(background_cd_m2, darkness);
+  const double background = std::max(background_cd_m2 + eye.bleached_cd_m2, darkness);
   const Summation s = summation(background);
   const double brighter = detection * squared(s.flux / size_arcmin + s.luminance);
   return brighter * (darker ? polarity_factor(background, size_arcmin, brighter) : 1) *

@@ -13,6 +13,9 @@ inline constexpr double min_age = 23, max_age = 75;
 struct Eye {
   double age_years = 65;
   double exposure_s = 2;  // time of looking; more than 2 s do not help further
+  /// Equivalent background of pigment that earlier light has bleached [cd/m2] (adaptation.hpp): it
+  /// raises the threshold as if it lay on the background.
+  double bleached_cd_m2 = 0;
 };
 
 /// Ratio of the threshold of an eye to that of an eye of 23 years. Requires: an age within limits.

@@ -165,8 +165,9 @@ PlacesRecord places_of(const SceneDescription& scene) {
   for (const AssessedArea& area : scene.open_areas) out.areas.push_back(area_of(area, false));
   for (const AssessedArea& area : scene.task_areas) out.areas.push_back(area_of(area, true));
   for (const EmphasisPoint& point : scene.emphasis)
-    out.emphasis.push_back(
-        {point.name, std::string(emphasis_words[static_cast<size_t>(point.kind)]), point.position});
+    out.emphasis.push_back({point.name,
+                            std::string(emphasis_words[static_cast<size_t>(point.kind)]),
+                            point.position, point.ifc_guid});
   return out;
 }
 

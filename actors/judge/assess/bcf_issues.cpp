@@ -137,7 +137,7 @@ IssueSubject named_subject(const AssessmentRecord& a, const Subject& subject) {
       break;
     case SubjectKind::emphasis:
       if (const EmphasisRecord* one = row_named(a.places.emphasis, subject.name))
-        return {"", one->position, std::nullopt};
+        return {one->ifc_guid, one->position, std::nullopt};
       break;
     case SubjectKind::open_area:
     case SubjectKind::task_area:

@@ -45,6 +45,8 @@ ModelThings things_by_subject(const AssessmentRecord& a) {
   for (const SignRecord& one : a.signs) add(one, SubjectKind::sign, "sign");
   for (const AreaRecord& area : a.places.areas)
     add(area, area.is_task ? SubjectKind::task_area : SubjectKind::open_area, "space");
+  for (const EmphasisRecord& point : a.places.emphasis)
+    add(point, SubjectKind::emphasis, "place of emphasis");
   for (const Check& check : a.checks)
     if (ModelThing* thing = thing_of(check.subject.kind, check.subject.name))
       thing->checks.push_back(&check);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "actors/judge/assess/aged_light.hpp"
+#include "scenes/emergency/adaptation.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/transport/compile.hpp"
@@ -429,6 +430,12 @@ Remarks overruled(const SceneDescription& scene, const std::vector<std::string>&
   compare(RemarkId::other_rules, scene.assessment.rules, rules);
   compare(RemarkId::other_deviations, scene.assessment.deviations, deviations);
   return out;
+}
+
+double equivalent_background_of(const AssessmentSettings& people, Operation operation,
+                                std::optional<double> seconds_after_failure) {
+  if (operation == Operation::mains || !seconds_after_failure) return 0;
+  return equivalent_background(people.luminance_before_cd_m2, *seconds_after_failure);
 }
 
 AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,

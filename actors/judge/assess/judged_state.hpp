@@ -13,8 +13,8 @@
 
 namespace luxodus {
 
-/// Time after a failure of the mains from which eyes count as adapted [s]: the pupil takes seconds,
-/// cones take about two minutes, and EN 1838 assumes a minute.
+/// Time after a failure of the mains from which pupil and retina have followed the light [s]; EN
+/// 1838 assumes a minute. Bleached pigment, which takes longer, counts in the thresholds.
 inline constexpr double adapted_after_s = 60;
 /// Wavelength of stated extinctions [nm], as in most measurements.
 inline constexpr double stated_nm = 633;
@@ -47,6 +47,11 @@ Result<Scenario> judged_scenario(const SceneDescription& scene, const std::strin
 Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
                                              const std::vector<std::string>& rules,
                                              const std::vector<std::string>& deviations);
+
+/// Equivalent background of what the light before the failure of the mains has bleached [cd/m2], by
+/// the stated time after it; 0 in mains operation and where no time is stated.
+double equivalent_background_of(const AssessmentSettings& people, Operation operation,
+                                std::optional<double> seconds_after_failure);
 
 /// Whether a scenario has media other than flames.
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario);

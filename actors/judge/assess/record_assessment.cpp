@@ -20,10 +20,30 @@ RulesRecord rules_of(const NamedRules& rules, const char* from) {
   return out;
 }
 
+/// Whether an eye gets light of the sign: it is neither hidden nor dark.
+bool is_seen(const SightRow& row) {
+  return row.sight.verdict != SightVerdict::hidden &&
+         row.look.legend.value + row.look.face.value != 0;
+}
+
+std::optional<SmokeOnLinesRecord> smoke_on_lines(const std::vector<SightRow>& sights) {
+  std::optional<SmokeOnLinesRecord> out;
+  for (const SightRow& row : sights) {
+    if (!is_seen(row)) continue;
+    const double extinction = row.sight.extinction;
+    if (!out) out = {extinction, extinction, 0};
+    out->min = std::min(out->min, extinction);
+    out->max = std::max(out->max, extinction);
+    ++out->views;
+  }
+  return out;
+}
+
 /// Range over all media except flames; none without smoke. Extinctions add where media overlap.
-std::optional<StateSmokeRecord> smoke_of(const AssessedState& state) {
+std::optional<StateSmokeRecord> smoke_of(const AssessedState& state,
+                                         const std::vector<SightRow>& sights) {
   if (!state.smoke) return std::nullopt;
-  StateSmokeRecord out{{0, 0, stated_nm}, state.media};
+  StateSmokeRecord out{{0, 0, stated_nm}, smoke_on_lines(sights), state.media};
   bool first = true;
   for (const StatedMedium& m : state.media) {
     if (m.kind == "flame") continue;
@@ -34,12 +54,15 @@ std::optional<StateSmokeRecord> smoke_of(const AssessedState& state) {
   return out;
 }
 
-StateRecord state_record(const AssessedState& state) {
+StateRecord state_record(const Assessment& assessment, const AssessmentSettings& people) {
+  const AssessedState& state = assessment.state;
   StateRecord out{.scenario = state.scenario,
                   .operation = state.operation,
                   .seconds_after_failure = state.seconds_after_failure,
+                  .equivalent_background_cd_m2 = equivalent_background_of(
+                      people, state.operation, state.seconds_after_failure),
                   .luminaires = {state.lit.size(), state.luminaires, state.lit},
-                  .smoke = smoke_of(state),
+                  .smoke = smoke_of(state, assessment.sights),
                   .rules = {},
                   .deviations = {},
                   .light = state.light,
@@ -107,11 +130,10 @@ ExperimentsRecord experiments_of(const SightRow& row, const SightRules& rules, d
   return {record_of(standing_in_reading(view)), record_of(standing_in_seeing(view))};
 }
 
-/// None of a sign that is hidden or dark.
+/// None of a sign that is not seen.
 std::optional<SeenRecord> seen_of(const SightRow& row, const Beside& beside,
                                   const AssessmentSettings& people) {
-  if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
-    return std::nullopt;
+  if (!is_seen(row)) return std::nullopt;
   SeenRecord out{
       .in_new_light = row.in_new_light,
       .look = look_of(row.look, row.sight),
@@ -207,13 +229,14 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
   out.version = version;
   out.scene = {scene.name, scene.title, scene.file, fmt::format("{:016x}", assessment.scene_hash),
                assessment.state.scenario};
-  out.state = state_record(assessment.state);
+  out.state = state_record(assessment, scene.assessment);
   const CheckCounts counts = counts_of(assessment.checks);
   for (const SightRow& row : assessment.sights) ++out.sight_counts[name_of(row.sight.verdict)];
   out.verdict = {first_sentence(out, words_of(counts)), words_of(counts), CountsRecord::of(counts)};
   out.not_assessed = not_assessed_of(assessment);
   out.people = {scene.assessment.age_years,
                 scene.assessment.spacing_m,
+                scene.assessment.luminance_before_cd_m2,
                 scene.assessment.irritant_smoke,
                 assessment.place_unknown,
                 {}};
@@ -225,7 +248,9 @@ AssessmentRecord record_of(const SceneDescription& scene, const Assessment& asse
                 .wrong_verdicts = limits::wrong_verdicts,
                 .sure_errors = assessment.sure_errors};
   for (const Check& check : assessment.checks) out.checks.push_back(check_of(check));
-  const SightRules rules{.eye = {scene.assessment.age_years},
+  const Eye eye{.age_years = scene.assessment.age_years,
+                .bleached_cd_m2 = out.state.equivalent_background_cd_m2};
+  const SightRules rules{.eye = eye,
                          .irritant_smoke = scene.assessment.irritant_smoke.value_or(false),
                          .place_unknown = assessment.place_unknown};
   std::map<std::string_view, const Sign*> signs;

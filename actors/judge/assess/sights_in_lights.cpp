@@ -232,10 +232,17 @@ SignLook SightsInLights::look_in(const Faced& faced, size_t mixture) const {
   return look_in(faced, mixture, faced.veils_cd_m2[mixture]);
 }
 
+Eye SightsInLights::eye_of(double age_years) const {
+  Eye eye{age_years};
+  const Scenario& now = judged_.scenario;
+  eye.bleached_cd_m2 = equivalent_background_of(
+      scene_.assessment, now.operation,
+      now.says_seconds ? std::optional(now.seconds_after_failure) : std::nullopt);
+  return eye;
+}
+
 SightRules SightsInLights::rules_for(double age_years) const {
-  return {{age_years},
-          scene_.assessment.irritant_smoke.value_or(false),
-          sure_errors_,
+  return {eye_of(age_years), scene_.assessment.irritant_smoke.value_or(false), sure_errors_,
           options_.place_unknown};
 }
 
@@ -346,8 +353,8 @@ void SightsInLights::compare_with_first(const Faced& faced, size_t light) {
   if (row.sight.verdict != SightVerdict::undecided || first.in_new_light != row.in_new_light)
     return;
   const SignLook beyond = look_in(faced, judged_.mixture_beyond_first(light, row.in_new_light));
-  error =
-      error_of_level_beyond(first.look, row.look, beyond, row.view, {scene_.assessment.age_years});
+  error = error_of_level_beyond(first.look, row.look, beyond, row.view,
+                                eye_of(scene_.assessment.age_years));
 }
 
 void SightsInLights::pool(const Readout& readout, const CompiledScene& scene,

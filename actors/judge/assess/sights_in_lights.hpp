@@ -83,6 +83,7 @@ class SightsInLights {
                    const std::vector<double>& veils) const;
   Sight worse_sight(const Sign& sign, const SignView& view, const OtherEyes& eyes,
                     const std::function<SignLook(bool as_new)>& look) const;
+  Eye eye_of(double age_years) const;
   SightRules rules_for(double age_years) const;
   void judge_view(const Faced& faced, size_t light);
   void judge_by_other_eyes(const Faced& faced, size_t light);

@@ -31,8 +31,8 @@ std::string luminaire_row(const LitRecord& luminaires) {
 }
 
 std::string range_words(double low, double high) {
-  return low == high ? fmt::format("{:.3g}/m", low)
-                     : fmt::format("{:.3g}/m to {:.3g}/m", low, high);
+  const std::string from = fmt::format("{:.3g}/m", low), to = fmt::format("{:.3g}/m", high);
+  return from == to ? from : from + " to " + to;
 }
 
 std::string smoke_row(const std::optional<StateSmokeRecord>& smoke) {
@@ -83,7 +83,11 @@ std::string judged_words(const StateRecord& state) {
   if (!state.smoke) return out + ", in clear air";
   const ExtinctionRecord& extinction = state.smoke->extinction;
   if (extinction.max == 0) return out + english()("headline.smoke_elsewhere");
-  return out + ", in smoke of " + range_words(extinction.min, extinction.max);
+  out += ", in smoke of " + range_words(extinction.min, extinction.max);
+  const auto& lines = state.smoke->on_lines;
+  if (!lines) return out;
+  if (lines->max == 0) return out + english()("headline.no_smoke_on_lines");
+  return out + english().say("headline.smoke_on_lines", range_words(lines->min, lines->max));
 }
 
 }  // namespace

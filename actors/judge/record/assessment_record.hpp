@@ -68,11 +68,26 @@ struct StatedMedium {
   }
 };
 
+/// Mean extinctions for visible light along the lines from eyes to the signs that they look at,
+/// from the least to the most [1/m].
+struct SmokeOnLinesRecord {
+  double min = 0, max = 0;
+  size_t views = 0;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("min", m.min)("max", m.max);
+    field("unit", derived([] { return std::string("1/m"); }));
+    field("views", m.views);
+  }
+};
+
 struct StateSmokeRecord {
   ExtinctionRecord extinction;
+  std::optional<SmokeOnLinesRecord> on_lines;  // none if nobody looks at a sign
   std::vector<StatedMedium> media;
   static constexpr void fields(auto&& field, auto& m) {
-    field("extinction", m.extinction)("media", m.media);
+    field("extinction", m.extinction);
+    field("on_lines", m.on_lines, {.or_null = true});
+    field("media", m.media);
   }
 };
 
@@ -96,6 +111,7 @@ struct StateRecord {
   std::string scenario;
   Operation operation = Operation::mains;
   std::optional<double> seconds_after_failure;
+  double equivalent_background_cd_m2 = 0;  // of what eyes have bleached
   LitRecord luminaires;
   std::optional<StateSmokeRecord> smoke;
   std::vector<RulesRecord> rules, deviations;
@@ -104,6 +120,7 @@ struct StateRecord {
   static constexpr void fields(auto&& field, auto& m) {
     field("scenario", m.scenario)("operation", m.operation);
     field("seconds_after_failure", m.seconds_after_failure, {.unit = "s", .or_null = true});
+    field("equivalent_background", m.equivalent_background_cd_m2, {.unit = "cd/m2"});
     field("luminaires", m.luminaires);
     field("smoke", m.smoke, {.or_null = true});
     field("rules", m.rules)("deviations", m.deviations)("light", m.light)("remarks", m.remarks);
@@ -152,12 +169,14 @@ struct NotAssessedRecord {
 
 struct PeopleRecord {
   double age_years = 0, spacing_m = 0;
+  double luminance_before_cd_m2 = 0;  // of the view before the failure of the mains
   std::optional<bool> irritant_smoke;
   bool place_unknown = false;           // they do not know where the signs are
   std::vector<std::string> other_eyes;  // names
   static constexpr void fields(auto&& field, auto& m) {
     field("age", m.age_years, {.unit = "years"});
     field("spacing", m.spacing_m, {.unit = "m"});
+    field("luminance_before", m.luminance_before_cd_m2, {.unit = "cd/m2"});
     field("irritant_smoke", m.irritant_smoke, {.or_null = true});
     field("place_of_signs", either(m.place_unknown, "unknown", "known"));
     field("other_eyes", m.other_eyes, {.or_left_out = true});

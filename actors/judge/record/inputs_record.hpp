@@ -148,8 +148,10 @@ struct AreaRecord {
 struct EmphasisRecord {
   std::string name, kind;
   glm::dvec3 position{0};
+  std::string ifc_guid;
   static constexpr void fields(auto&& field, auto& m) {
     field("name", m.name)("kind", m.kind)("position", m.position);
+    field("ifc_guid", m.ifc_guid, {.or_left_out = true});
   }
 };
 

@@ -127,6 +127,8 @@ std::string state_section(const PageParts& parts) {
   facts.add("state.operation", t.word("operation", name_of(s.operation)));
   facts.add("state.seconds", s.seconds_after_failure ? t.number(*s.seconds_after_failure, 4) + " s"
                                                      : t("state.seconds_unsaid"));
+  if (s.equivalent_background_cd_m2 > 0)
+    facts.add("state.bleached", t.number(s.equivalent_background_cd_m2, 2) + " cd/m²");
   const LitRecord& lit = s.luminaires;
   facts.add_html("state.luminaires", "<b>" + escaped(t.say("state.lit", lit.lit, lit.of)) + "</b>" +
                                          (lit.names.empty() ? "" : "<br>") +
@@ -151,6 +153,7 @@ std::string inputs_section(const PageParts& parts) {
   Facts facts(t);
   facts.add("inputs.age", t.say("inputs.years", t.number(people.age_years)));
   facts.add("inputs.spacing", t.number(people.spacing_m) + " m");
+  facts.add("inputs.before", t.number(people.luminance_before_cd_m2) + " cd/m²");
   facts.add("inputs.irritant", t(!people.irritant_smoke   ? "word.unknown"
                                  : *people.irritant_smoke ? "word.yes"
                                                           : "word.no"));

@@ -5,10 +5,9 @@ namespace luxodus {
 
 namespace {
 
-std::string range_text(const Texts& t, const ExtinctionRecord& extinction) {
-  const double low = extinction.min, high = extinction.max;
-  return low == high ? t.say("headline.extinction", t.number(low))
-                     : t.say("headline.extinctions", t.number(low), t.number(high));
+std::string range_text(const Texts& t, double low, double high) {
+  const std::string from = t.number(low), to = t.number(high);
+  return from == to ? t.say("headline.extinction", from) : t.say("headline.extinctions", from, to);
 }
 
 /// "\"fire\", emergency operation, 60 s after the failure, in smoke of 0.2/m to 0.8/m"
@@ -18,8 +17,13 @@ std::string judged_text(const Texts& t, const StateRecord& state) {
   if (state.seconds_after_failure)
     out += t.say("headline.seconds", t.number(*state.seconds_after_failure, 6));
   if (!state.smoke) return out + t("headline.clear");
-  if (state.smoke->extinction.max == 0) return out + t("headline.smoke_elsewhere");
-  return out + t.say("headline.smoke", range_text(t, state.smoke->extinction));
+  const ExtinctionRecord& all = state.smoke->extinction;
+  if (all.max == 0) return out + t("headline.smoke_elsewhere");
+  out += t.say("headline.smoke", range_text(t, all.min, all.max));
+  const auto& lines = state.smoke->on_lines;
+  if (!lines) return out;
+  if (lines->max == 0) return out + t("headline.no_smoke_on_lines");
+  return out + t.say("headline.smoke_on_lines", range_text(t, lines->min, lines->max));
 }
 
 }  // namespace

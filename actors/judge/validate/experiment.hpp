@@ -53,6 +53,12 @@ struct ExperimentTarget {
   double ground_reflectance = 0;
 };
 
+/// Light that the eyes came from. Without a time they are adapted to what they look at.
+struct LightBefore {
+  double luminance_cd_m2 = 0;         // mean of the view
+  std::optional<double> seconds_ago;  // since it went out
+};
+
 struct ExperimentScene {
   double distance_m = 0;
   ExperimentTarget target;
@@ -60,6 +66,7 @@ struct ExperimentScene {
   ExperimentLamps lamps = {};
   ExperimentSmoke smoke = {};
   double age_years = 23;
+  LightBefore before = {};
 };
 
 // ---- what is found in it -----------------------------------------------------------------------

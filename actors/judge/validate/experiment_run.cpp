@@ -108,8 +108,8 @@ class TrialLevels {
       assess.threads = options_.threads;
       assess.rounds = options_.rounds;
       Assessment found;
-      if (auto ok =
-              assess_sights(description, Scenario{}, {}, assess, interrupt_, no_report, found);
+      if (auto ok = assess_sights(description, scenario_of(scene.before), {}, assess, interrupt_,
+                                  no_report, found);
           !ok)
         return ok.problem();
       if (found.sights.empty()) return problem("the target is not turned to the eye");

@@ -112,7 +112,8 @@ Sign sign_of(const ExperimentTarget& target, double distance_m) {
   }
   sign.face.legend = target_colour;
   sign.face.ground = ground_colour;
-  sign.colours = white_and_green({target.luminance_cd_m2, target.ground_cd_m2});
+  const glm::dvec2 luminances{target.luminance_cd_m2, target.ground_cd_m2};
+  sign.colours = white_and_green(luminances, luminances);
   if (target.light_nm > 0)
     for (FaceColour& colour : sign.colours) colour.shape = line_shape(target.light_nm);
   sign.colours[target_colour].reflectance = Spectrum::constant(target.reflectance);
@@ -205,11 +206,22 @@ SceneDescription description_of(const ExperimentScene& scene, double lamps_lm) {
   SceneDescription out;
   add_surroundings(out, scene);
   if (lamps_lm > 0) add_lamps(out, scene, lamps_lm);
+  for (Emitter& lamp : out.emitters) lamp.emergency_flux = lamp.mains_flux;
   add_smoke(out, scene.smoke);
   out.signs.push_back(sign_of(scene.target, scene.distance_m));
   add_eye(out, {0, 0, 0});
   out.assessment.age_years = scene.age_years;
+  out.assessment.luminance_before_cd_m2 = scene.before.luminance_cd_m2;
   out.assessment.irritant_smoke = false;
+  return out;
+}
+
+Scenario scenario_of(const LightBefore& before) {
+  Scenario out;
+  if (!before.seconds_ago) return out;
+  out.operation = Operation::emergency;
+  out.says_seconds = true;
+  out.seconds_after_failure = *before.seconds_ago;
   return out;
 }
 

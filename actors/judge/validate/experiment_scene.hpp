@@ -18,6 +18,8 @@ const char* quantity_of(const Trial& trial);
 
 /// The scene with one observer and one sign. `lamps_lm`: flux of all lamps together.
 SceneDescription description_of(const ExperimentScene& scene, double lamps_lm);
+/// The state in which it is looked at: all its light is on, and eyes come from the light before.
+Scenario scenario_of(const LightBefore& before);
 /// The scene of the lamps alone, in smoke or in clear air as they are measured, with one probe
 /// where they are.
 SceneDescription lamps_alone(const ExperimentScene& scene);

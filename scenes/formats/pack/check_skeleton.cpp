@@ -293,7 +293,8 @@ void check_assessment(const SceneDescription& d) {
   for (const EmphasisPoint& e : d.emphasis)
     need(near(e.position) && (!e.facing || near(*e.facing)), "something lies too far away");
   need(within(d.assessment.age_years, 0, 200) && d.assessment.spacing_m > 0 &&
-           d.assessment.spacing_m <= farthest_m,
+           d.assessment.spacing_m <= farthest_m &&
+           within(d.assessment.luminance_before_cd_m2, 0, brightest),
        "an assessment's settings cannot be");
 }
 

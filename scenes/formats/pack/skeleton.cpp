@@ -132,7 +132,8 @@ void serialize(A& a, EmphasisPoint& x) {
 }
 template <class A>
 void serialize(A& a, AssessmentSettings& x) {
-  a(x.age_years, x.eye_heights_m, x.spacing_m, x.smoke_expected, x.irritant_smoke);
+  a(x.age_years, x.eye_heights_m, x.spacing_m, x.luminance_before_cd_m2, x.smoke_expected,
+    x.irritant_smoke);
 }
 template <class A>
 void serialize(A& a, ProjectSettings& x) {

@@ -90,6 +90,7 @@ void read_assessment(const toml::Table& table, SceneReading& reading) {
   }
   if (says("other_eyes")) s.other_eyes = read_other_eyes(keys);
   if (says("spacing_m")) s.spacing_m = keys.number("spacing_m");
+  if (says("luminance_before")) s.luminance_before_cd_m2 = keys.number("luminance_before");
   if (says("smoke_expected")) s.smoke_expected = keys.flag("smoke_expected");
   if (says("irritant_smoke")) s.irritant_smoke = keys.flag("irritant_smoke");
   if (says("rules")) {
@@ -136,6 +137,7 @@ void read_emphasis(const toml::Table& table, SceneReading& reading) {
   p.place = keys.place();
   p.position = keys.point("position");
   p.facing = keys.maybe_direction("facing");
+  p.ifc_guid = keys.text("ifc_guid");
   const auto word = std::find(emphasis_words.begin(), emphasis_words.end(), keys.choice("kind"));
   if (word != emphasis_words.end())
     p.kind = static_cast<EmphasisKind>(word - emphasis_words.begin());

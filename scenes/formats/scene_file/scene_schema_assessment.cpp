@@ -15,6 +15,10 @@ std::vector<TableSpec> assessment_schema() {
            {"eye_heights_m", "numbers", "m", "[1.65, 1.2, 0.6]", "[0.1, 2.5]",
             "above the floor: walking, stooping, crawling"},
            {"spacing_m", "number", "m", "2", "[0.1, 100]", "between observers along a route"},
+           {"luminance_before", "number", "cd/m2", "100", "[0, 1000]",
+            "of what eyes were adapted to before the mains failed; 100 is that of a room lit with "
+            "500 lx. 0: eyes are adapted to the dark. It counts where a scenario states "
+            "seconds_after_failure"},
            {"smoke_expected", "flag", "", "true", "",
             "smoke may occur where signs are: EN 1838 then asks for brighter ones"},
            {"irritant_smoke", "flag", "", "", "",
@@ -64,6 +68,7 @@ std::vector<TableSpec> assessment_schema() {
            {"facing", "direction", "", "", "[-1e7, 1e7]",
             "where the front of equipment looks; without it its vertical illuminance is not "
             "assessed"},
+           ifc_guid_key(),
        }},
   };
 }

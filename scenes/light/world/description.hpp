@@ -344,6 +344,7 @@ struct EmphasisPoint {
   EmphasisKind kind = EmphasisKind::exit_door;
   glm::dvec3 position{0};
   std::optional<glm::dvec3> facing;  // direction that the front of equipment faces
+  std::string ifc_guid;              // GlobalId in the model it came from; "" if none
 };
 
 /// Eyes that signs are judged for beside those of the stated age.
@@ -359,6 +360,7 @@ struct AssessmentSettings {
   std::vector<OtherEyes> other_eyes;
   std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
   double spacing_m = 2;                 // spacing of observers along routes
+  double luminance_before_cd_m2 = 100;  // of the view before the mains failed
   bool smoke_expected = true;           // smoke may occur where signs are (EN 1838)
   std::optional<bool> irritant_smoke;   // eye irritation: people see less than their eyes could
   std::vector<std::string> rules;       // rule sets, by name; empty: not given

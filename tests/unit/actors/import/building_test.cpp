@@ -243,7 +243,7 @@ TEST_CASE("tables of the building that a person has changed or removed stay so",
            "\nifc_guid = \"" + guid + "\"\n";
   };
   const auto exit = [](const std::string& name) {
-    return "\n[[emphasis]]\nname = \"" + name + "\"\n# ifc_guid = \"D\"\n";
+    return "\n[[emphasis]]\nname = \"" + name + "\"\nifc_guid = \"D\"\n";
   };
   const std::string first = head + area("Hall", "A", 0) + area("Hall", "A", 1) +
                             area("Office", "B", 0) + area("Store", "C", 0) + exit("Exit");

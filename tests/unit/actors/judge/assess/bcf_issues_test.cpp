@@ -82,6 +82,15 @@ TEST_CASE("each failed check is an issue with a camera and GlobalIds", "[assess]
   CHECK(bytes == bcf_issues(assessment_with({area, route, lamp, sign, passed})));
 }
 
+TEST_CASE("an issue on a place of emphasis bears the GlobalId of its door", "[assess]") {
+  AssessmentRecord a =
+      assessment_with({issue_check({SubjectKind::emphasis, "door"}, CheckVerdict::fail)});
+  a.places.emphasis.push_back({"door", "final_exit", {5, 2, 0}, lamp_guid});
+  const auto bytes = bcf_issues(a);
+  REQUIRE(bytes);
+  CHECK(count_in(*bytes, "<Component IfcGuid=\"" + lamp_guid + "\"/>") == 1);
+}
+
 TEST_CASE("the camera of an issue is at the height of an eye above the floor below it",
           "[assess]") {
   const auto eye_height = [](const AssessmentRecord& a) {

@@ -112,9 +112,22 @@ TEST_CASE("smoke above everything that people look at is no clear air, and flame
   CHECK(warned(remark(RemarkId::flame_dimmed, 0.0, "fl")));
   CHECK_FALSE(warned(remark(RemarkId::clear_air)));
   AssessmentRecord record;
-  record.state.smoke = StateSmokeRecord{{0, 0, stated_nm}, judged.media};
+  record.state.smoke = StateSmokeRecord{{0, 0, stated_nm}, {}, judged.media};
   CHECK(first_sentence(record, "").find("clear air") == std::string::npos);
   CHECK(first_sentence(record, "").find("with smoke, but none in the building between") !=
+        std::string::npos);
+}
+
+TEST_CASE("the first sentence says what of the smoke lies on lines of sight", "[assess]") {
+  AssessmentRecord record;
+  record.state.smoke = StateSmokeRecord{{0.2, 3, stated_nm}, {}, {}};
+  CHECK(first_sentence(record, "").find("in smoke of 0.2/m to 3/m, by") != std::string::npos);
+  record.state.smoke->on_lines = SmokeOnLinesRecord{0.25, 0.5, 7};
+  CHECK(first_sentence(record, "").find(
+            "in smoke of 0.2/m to 3/m (0.25/m to 0.5/m on lines of sight), by") !=
+        std::string::npos);
+  record.state.smoke->on_lines = SmokeOnLinesRecord{0, 0, 7};
+  CHECK(first_sentence(record, "").find("to 3/m, but none on any line of sight, by") !=
         std::string::npos);
 }
 

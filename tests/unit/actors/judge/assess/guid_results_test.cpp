@@ -45,6 +45,9 @@ AssessmentRecord small_assessment() {
   core.limit = 0.5;
   core.unit = "lx";
   core.verdict = CheckVerdict::pass;
+  EmphasisRecord& door = out.places.emphasis.emplace_back();
+  door.name = "door";
+  door.ifc_guid = "D1";
   out.checks = {core, check(RuleId::E14, {SubjectKind::luminaire, "other"})};
   out.sights = {sight("exit", SightVerdict::legible), sight("exit", SightVerdict::invisible),
                 sight("other", SightVerdict::legible)};
@@ -67,11 +70,20 @@ TEST_CASE("checks, fluxes and views are listed by the GlobalId of their thing", 
             "\"1 invisible, 1 legible\"\n");
 }
 
+TEST_CASE("a place of emphasis is listed by the GlobalId of its door", "[assess]") {
+  AssessmentRecord assessment = small_assessment();
+  assessment.checks = {check(RuleId::E12, {SubjectKind::emphasis, "door"})};
+  const auto table = results_by_guid(assessment);
+  REQUIRE(table);
+  CHECK(table->text().find("D1,place of emphasis,door,,E12,") != std::string::npos);
+}
+
 TEST_CASE("without GlobalIds there is no table of results by GlobalId", "[assess]") {
   AssessmentRecord assessment = small_assessment();
   assessment.luminaires[0].ifc_guid = "";
   assessment.signs[0].ifc_guid = "";
   assessment.places.areas[0].ifc_guid = "";
+  assessment.places.emphasis[0].ifc_guid = "";
   CHECK_FALSE(results_by_guid(assessment));
 }
 

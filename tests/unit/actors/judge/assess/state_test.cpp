@@ -6,6 +6,7 @@
 #include "actors/judge/assess/reality_mode.hpp"
 #include "actors/judge/assess/state_words.hpp"
 #include "actors/judge/report/report.hpp"
+#include "scenes/emergency/adaptation.hpp"
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
 
 using namespace luxodus;
@@ -171,12 +172,16 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
   CHECK(s["luminaires"]["lit_names"][0] == "lamp");
   CHECK(s["smoke"]["extinction"]["max"].get<double>() == Approx(0.2));
   CHECK(s["smoke"]["extinction"]["wavelength_nm"] == 633);
+  CHECK(s["smoke"]["on_lines"]["views"].get<size_t>() > 0);
+  CHECK(s["smoke"]["on_lines"]["max"].get<double>() == Approx(0.2).epsilon(0.02));
   CHECK(s["smoke"]["media"][0]["name"] == "smoke");
   CHECK(has(s["smoke"]["media"][0]["place"], "scene.toml:"));
   CHECK(json["scenario"]["media"] == Json::parse(R"([{"name": "smoke", "factor": 0.4}])"));
   CHECK(s["rules"][0]["id"] == "en1838-2013");
   CHECK(s["rules"][0]["edition"] == "EN 1838:2013");
   CHECK(s["rules"][0]["status"]["id"] == "superseded");
+  CHECK(s["equivalent_background"]["value"].get<double>() ==
+        Approx(equivalent_background(100, 5)).epsilon(1e-6));
   CHECK(has(s["light"]["text"], "the worse verdict counts"));
   CHECK(json["verdict"]["words"] == words_of(counts_of(a.checks)));
   CHECK(json["verdict"]["fail"] == json["counts"]["fail"]);
@@ -190,21 +195,22 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
   const std::string words = state_text(record);
   CHECK(has(words, "emergency, 5 s after the failure of the mains"));
   CHECK(has(words, "1 of 2 lit: lamp"));
-  CHECK(has(words, "eyes are not yet adapted"));
+  CHECK(has(words, "pupils and retinas have not yet followed"));
   const std::string page = report_html(record, {}, "out", {});
   CHECK(page.find("1 of 2 lit") < page.find("<h2 "));  // beside the verdict
   CHECK(page.find(record.verdict.words) < page.find("<h2 "));
-  CHECK(has(page, "eyes are not yet adapted"));
+  CHECK(has(page, "pupils and retinas have not yet followed"));
 }
 
-TEST_CASE("eyes count as unadapted within a minute of the failure, and not after",
+TEST_CASE("pupils and retinas count as not adapted within a minute of the failure, and not after",
           "[assess][state]") {
   for (const double seconds : {0.0, 59.0, 60.0, 600.0}) {
     const std::string text = replaced_all(
         room, "operation = \"emergency\"\n",
         "operation = \"emergency\"\nseconds_after_failure = " + std::to_string(seconds) + "\n");
     const AssessedState judged = assessed(text, codes_alone()).state;
-    CHECK(has(english().remarks(judged.remarks), "eyes are not yet adapted") == (seconds < 60));
+    CHECK(has(english().remarks(judged.remarks), "pupils and retinas have not yet followed") ==
+          (seconds < 60));
   }
   const AssessedState unsaid = assessed(room, codes_alone()).state;
   CHECK_FALSE(unsaid.seconds_after_failure);

@@ -81,7 +81,10 @@ AssessmentRecord full() {
   a.state.operation = Operation::emergency;
   a.state.seconds_after_failure = 60;
   a.state.luminaires = {1, 2, {"lamp"}};
-  a.state.smoke = {{0.1, 0.2, 633}, {{"smoke", "layered", "hall.toml:3", {}, 0.1, 0.2}}};
+  a.state.equivalent_background_cd_m2 = 0.001;
+  a.state.smoke = StateSmokeRecord{{0.1, 0.2, 633},
+                                   SmokeOnLinesRecord{0.12, 0.18, 3},
+                                   {{"smoke", "layered", "hall.toml:3", {}, 0.1, 0.2}}};
   a.state.rules = {{"en1838-2013", "", "EN 1838:2013", remark(RemarkId::asks_european), "BSI",
                     remark(RemarkId::superseded)}};
   a.state.deviations = {{"de-asr-a3.4-3",
@@ -93,7 +96,7 @@ AssessmentRecord full() {
   a.state.remarks = {remark(RemarkId::young_eyes, 20)};
   a.verdict = {"first", "no check made fails", {1, 0, 0, 0}};
   a.not_assessed = {{RuleId::E8, "EN 1838:2013", false, {remark(RemarkId::no_value)}, 2}};
-  a.people = {40, 0.5, true, true, {"protan"}};
+  a.people = {40, 0.5, 100, true, true, {"protan"}};
   a.method = {7, 1000, 0.5, 0.01, 5};
   a.sight_counts = {{"visible but not legible", 1}};
   a.checks = {check()};
@@ -128,7 +131,7 @@ AssessmentRecord full() {
   exit.colours = {{"red", 500, 400}, {"white", {}, {}}};
   a.places.routes = {{"way", {{0, 0, 0}, {4, 0, 0}}, 2}};
   a.places.areas = {{"hall", true, {{0, 0}, {4, 0}, {4, 4}}, 0, "R1", 500}};
-  a.places.emphasis = {{"door", "exit door", {4, 0, 0}}};
+  a.places.emphasis = {{"door", "exit door", {4, 0, 0}, "D1"}};
   a.materials = {{"grey", "glossy", 3, 0.5, 0.1, 0.2, 1.5, true}};
   a.media = {{"smoke", "layered", {{0.2, 633, 1, 0.5, 0.6, 1, 2}}, 1000}};
   a.cameras = {"view"};

@@ -205,7 +205,7 @@ TEST_CASE("the headline of a report says in each language what a terminal says f
   AssessmentRecord smoky = a;
   smoky.state.scenario = "Brand";
   smoky.state.seconds_after_failure = 600;
-  smoky.state.smoke = {{0.05, 2, 633}, {}};
+  smoky.state.smoke = StateSmokeRecord{{0.05, 2, 633}, {}, {}};
   smoky.verdict.counts = {.pass = 7, .fail = 2, .not_assessed = 1, .not_verified = 0};
   smoky.sight_counts = {{"legible", 3}, {"invisible", 5}};
   CHECK(headline(Texts(Language::de), smoky) ==
@@ -213,6 +213,11 @@ TEST_CASE("the headline of a report says in each language what a terminal says f
             a.state.rules[0].edition +
             ": 2 Prüfungen nicht bestanden, 1 nicht bewertet; 3 von 8 Sichten auf Zeichen sind "
             "lesbar");
+  smoky.state.smoke->on_lines = SmokeOnLinesRecord{0.25, 0.5, 8};
+  CHECK(has(headline(Texts(Language::de), smoky),
+            "in Rauch von 0,05/m bis 2/m (0,25/m bis 0,5/m auf Sichtlinien), nach"));
+  smoky.state.smoke->on_lines = SmokeOnLinesRecord{0, 0, 8};
+  CHECK(has(headline(Texts(Language::de), smoky), "aber ohne Rauch auf einer Sichtlinie"));
   for (const Language language : {Language::en, Language::de, Language::fr})
     CHECK(page_in(language).find(escaped(headline(Texts(language), a))) <
           page_in(language).find("<h2 "));
