@@ -42,6 +42,7 @@ Command luxodus_command() {
                    compare_command(),
                    report_command(),
                    design_command(),
+                   spacing_command(),
                    view_command(),
                    cluster_command(),
                    node_command(),
