@@ -65,7 +65,7 @@ TEST_CASE("bad input of a spacing table is refused in one sentence", "[program][
       {corridor + " --height 0.02", "--height 0.02: the luminaire hangs above the lit plane"},
       {corridor + " --level 0", "--level 0: a level is above 0 lx"},
       {corridor + " --variant x", "--variant, --emitter and --duration-h belong to a GLDF"},
-      {"missing.ldt", "missing.ldt"},
+      {"missing.ldt", "missing.ldt: there is no such file"},
   };
   for (const auto& [arguments, words] : bad) {
     const Outcome run = run_luxodus(folder, "spacing " + arguments);

@@ -1,6 +1,9 @@
 // luxodus spacing: the spacing table of an emergency luminaire, as manufacturers print it.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
+
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/results/formats/csv.hpp"
@@ -16,8 +19,7 @@ namespace {
 
 struct SpacingOptions {
   std::string file;
-  std::vector<double> heights{2.5, 2.8, 3, 3.5, 4, 5};
-  std::vector<double> levels{0.5, 1, 5};
+  std::vector<double> heights, levels;  // empty: the usual ones
   double plane = 0.02;
   double maintenance_factor = 1, end_of_duration_factor = 1;
   double emergency_flux = 0;  // [lm]; 0: that of the file
@@ -26,7 +28,10 @@ struct SpacingOptions {
   double duration_h = 0;  // 0: not chosen
   bool json = false, csv = false;
 
-  double end_of_life() const { return maintenance_factor * end_of_duration_factor; }
+  /// Rounded to twelve decimals: 0.8 x 0.7 is 0.56.
+  double end_of_life() const {
+    return std::round(maintenance_factor * end_of_duration_factor * 1e12) / 1e12;
+  }
 };
 
 /// A luminaire whose intensities belong to a flux.
@@ -59,6 +64,9 @@ Result<SpacedLuminaire> read_contained(const SpacingOptions& o, std::optional<in
 }
 
 Result<SpacedLuminaire> read_luminaire(const SpacingOptions& o) {
+  std::error_code failed;
+  if (!std::filesystem::exists(o.file, failed))
+    return problem_in(o.file, "there is no such file", ProblemKind::not_found);
   std::optional<int> lamp_set;
   if (o.lamp_set > 0) lamp_set = o.lamp_set;
   if (std::string_view(o.file).ends_with(".gldf")) return read_contained(o, lamp_set);
@@ -73,19 +81,22 @@ Result<SpacedLuminaire> read_luminaire(const SpacingOptions& o) {
 }
 
 Result<SpacingRequest> request_of(const SpacingOptions& o) {
-  if (o.heights.size() > limits::spacing_heights || o.levels.size() > limits::spacing_levels)
+  SpacingRequest out{o.heights, o.levels, {1}, o.plane};
+  if (out.heights_m.empty()) out.heights_m = {2.5, 2.8, 3, 3.5, 4, 5};
+  if (out.levels_lx.empty()) out.levels_lx = {0.5, 1, 5};
+  if (o.end_of_life() < 1) out.factors.push_back(o.end_of_life());
+  if (out.heights_m.size() > limits::spacing_heights ||
+      out.levels_lx.size() > limits::spacing_levels)
     return problem(fmt::format("a table has at most {} heights and {} levels",
                                limits::spacing_heights, limits::spacing_levels));
-  for (const double height : o.heights)
+  for (const double height : out.heights_m)
     if (!(height > o.plane))
       return problem(
           fmt::format("--height {:g}: the luminaire hangs above the lit plane, which is "
                       "{:g} m above the floor (--plane)",
                       height, o.plane));
-  for (const double level : o.levels)
+  for (const double level : out.levels_lx)
     if (!(level > 0)) return problem(fmt::format("--level {:g}: a level is above 0 lx", level));
-  SpacingRequest out{o.heights, o.levels, {1}, o.plane};
-  if (o.end_of_life() < 1) out.factors.push_back(o.end_of_life());
   return out;
 }
 
