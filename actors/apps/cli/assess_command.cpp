@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "actors/apps/cli/assess_pictures.hpp"
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/findings.hpp"
@@ -49,6 +50,7 @@ struct AssessCommandOptions {
   bool codes_alone = false;
   bool strict = false;
   bool overwrite = false;
+  bool no_pictures = false;
   ReportWords report;
 };
 
@@ -147,6 +149,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   job.overwrite = options.overwrite;
   job.strict = options.strict;
   job.report = options.report;
+  job.pictures = !options.codes_alone && !options.no_pictures;
   install_interrupt_handler();
   job.options.reality = !options.codes_alone;
   job.options.place_unknown = options.place == "unknown";
@@ -200,7 +203,7 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   const OutputPlan plan{
       {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "guided.csv",
        "thresholds.csv", "by_guid.csv", "property_sets.csv", "issues.bcf"},
-      {"plans", "schedules"}};
+      {"plans", "schedules", "views"}};
   const auto out = OutputFolder::claim(job.folder, plan);
   if (!out) return out.problem();
   if (!job.overwrite)
@@ -238,6 +241,10 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   record.thresholds = std::move(thresholds).value();
   if (auto ok = write_assessment(out->path(), record); !ok) return ok.problem();
   print_summary(record);
+  if (job.pictures) {
+    if (auto ok = picture_state(job, out->path()); !ok) return ok.problem();
+    if (interrupt_flag()) return ExitCode::interrupted;
+  }
   if (auto ok = write_report_and_tell(out.value(), record, job.report); !ok) return ok.problem();
   return job.strict && anything_open(record) ? ExitCode::failure : ExitCode::success;
 }
@@ -297,13 +304,16 @@ Command assess_command() {
            {"--codes-alone", &o->codes_alone,
             "Assessment by the codes only: no smoke, no "
             "reflections"},
+           {"--no-pictures", &o->no_pictures, "No pictures from the eye for the report"},
            {"--overwrite", &o->overwrite,
             "Replacement of files in the folder that no assessment has written"},
            {"--strict", &o->strict,
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =
           "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
-          "checks.csv, sights.csv, guided.csv (over time), plans/ (SVG, DXF), schedules/ (CSV); of "
+          "checks.csv, sights.csv, guided.csv (over time), plans/ (SVG, DXF), schedules/ (CSV), "
+          "views/ "
+          "(pictures from the cameras of the scene, or from the starts of its routes); of "
           "what came from IFC by_guid.csv, property_sets.csv, issues.bcf (failed checks). Over "
           "several times routes are followed; all else "
           "is of the last of them.\n"

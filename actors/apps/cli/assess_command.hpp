@@ -30,8 +30,9 @@ struct AssessmentJob {
   std::filesystem::path folder;
   AssessOptions options;
   std::vector<Sought> find;  // thresholds to find besides
-  bool overwrite = false;  // even files that no assessment has written
-  bool strict = false;     // exit code 1 if anything is undecided
+  bool overwrite = false;    // even files that no assessment has written
+  bool strict = false;       // exit code 1 if anything is undecided
+  bool pictures = false;     // of the state, for the report
   ReportWords report;
 };
 

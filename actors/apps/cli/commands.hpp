@@ -24,6 +24,7 @@ Command assess_command();
 Command compare_command();
 Command report_command();
 Command design_command();
+Command spacing_command();
 // live view
 Command view_command();
 // clusters

@@ -40,9 +40,7 @@ void add_report_options(Command& command, ReportWords& words) {
 
 Result<void> write_report_and_tell(const OutputFolder& folder, const AssessmentRecord& assessment,
                                    const ReportWords& words) {
-  ReportOptions options = words.options();
-  options.named = folder.named().string();
-  if (auto ok = write_report(folder.path(), assessment, options); !ok) return ok.problem();
+  if (auto ok = write_report(folder.path(), assessment, words.options()); !ok) return ok.problem();
   for (const char* file : {"report.html", "report.pdf"})
     if (words.pdf || std::string_view(file) == "report.html")
       std::printf("written to %s\n", (folder.named() / file).string().c_str());
@@ -78,8 +76,8 @@ Command report_command() {
                    {.form = Form::folder, .required = true}}},
       .notes =
           "Writes report.html, plans/ (SVG, DXF) and schedules/ (CSV) into FOLDER. Takes in "
-          "the pictures of FOLDER/views or FOLDER/run/views, as `luxodus run --out "
-          "FOLDER/run` makes them.\n"
+          "the pictures of FOLDER/run/views, as `luxodus run --out FOLDER/run` makes them, or else "
+          "those of FOLDER/views, which `luxodus assess` has made.\n"
           "  luxodus report out/office --pdf --language de\n"
           "  luxodus report out/office --pdf --paper letter --grid-values",
       .run = [o] { return exit_code_of(report_again(o->folder, o->words)); }};

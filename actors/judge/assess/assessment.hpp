@@ -110,7 +110,8 @@ struct Assessment {
   std::vector<SightRow> sights;
   std::vector<SweepRow> sweep;
   std::optional<OverTime> over_time;
-  std::vector<PlanLevel> levels;  // from below; at least one
+  std::vector<PlanLevel> levels;        // from below; at least one
+  std::vector<SurfaceRecord> surfaces;  // routes, open areas, task areas that have points
   /// Heights of the floors of their storeys, by luminaire and sign of the scene [m].
   std::vector<std::optional<double>> luminaire_floors, sign_floors;
   std::vector<StateWarning> warnings;

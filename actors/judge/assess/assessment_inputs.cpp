@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "actors/judge/assess/judged_state.hpp"
+#include "actors/judge/assess/luminaire_sheets.hpp"
 #include "actors/judge/assess/plan_cut.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "runtime/core/base64.hpp"
@@ -13,6 +14,7 @@
 #include "scenes/emergency/rules.hpp"
 #include "scenes/formats/images/logo.hpp"
 #include "scenes/formats/images/page_picture.hpp"
+#include "scenes/light/geometry/polygon.hpp"
 
 namespace luxodus {
 
@@ -66,7 +68,8 @@ LuminaireRecord luminaire_of(const Emitter& e) {
                       .emergency_ageing = e.emergency_ageing,
                       .ifc_guid = e.ifc_guid,
                       .opening_m = {},
-                      .onset = e.onset};
+                      .onset = e.onset,
+                      .sheet = 0};
   if (e.opening_m != glm::dvec3(0)) out.opening_m = e.opening_m;
   return out;
 }
@@ -171,6 +174,37 @@ PlacesRecord places_of(const SceneDescription& scene) {
   return out;
 }
 
+/// Whether a thing on this floor stands or hangs in a room.
+bool holds(const RoomRecord& room, const glm::dvec3& place, const std::optional<double>& floor_m) {
+  constexpr double one_storey_m = 1;
+  return std::abs(floor_m.value_or(place.z) - room.z_m) < one_storey_m &&
+         is_within(room.outline, glm::dvec2(place));
+}
+
+/// The rooms of the scene; if it names none, its areas.
+std::vector<RoomRecord> rooms_of(const SceneDescription& scene, const AssessmentRecord& record) {
+  std::vector<const AssessedArea*> areas;
+  for (const AssessedArea& room : scene.rooms) areas.push_back(&room);
+  if (areas.empty())
+    for (const auto* list : {&scene.open_areas, &scene.task_areas})
+      for (const AssessedArea& area : *list) areas.push_back(&area);
+  std::vector<RoomRecord> out;
+  for (const AssessedArea* area : areas) {
+    RoomRecord room{.name = area->name,
+                    .outline = area->outline,
+                    .z_m = area->z_m,
+                    .area_m2 = signed_area(area->outline),
+                    .ifc_guid = area->ifc_guid};
+    for (const LuminaireRecord& one : record.luminaires)
+      if (holds(room, one.position, one.floor_m))
+        ++(one.emergency_flux.value > 0 ? room.emergency : room.mains);
+    for (const SignRecord& sign : record.signs)
+      room.signs += holds(room, sign.position + 0.05 * sign.facing, sign.floor_m);
+    out.push_back(std::move(room));
+  }
+  return out;
+}
+
 std::vector<MaterialRecord> materials_of(const SceneDescription& scene) {
   std::vector<size_t> uses(scene.materials.size(), 0);
   for (const Object& object : scene.objects) ++uses[static_cast<size_t>(object.material)];
@@ -231,7 +265,10 @@ void add_inputs(const SceneDescription& scene, const Assessment& assessment,
     record.luminaires[i].floor_m = assessment.luminaire_floors[i];
   for (size_t i = 0; i < assessment.sign_floors.size(); ++i)
     record.signs[i].floor_m = assessment.sign_floors[i];
+  add_sheets(scene, record);
   record.places = places_of(scene);
+  record.rooms = rooms_of(scene, record);
+  record.surfaces = assessment.surfaces;
   record.materials = materials_of(scene);
   for (const Medium& medium : scene.media) record.media.push_back(medium_of(medium));
   for (const Camera& camera : scene.cameras) record.cameras.push_back(camera.name);

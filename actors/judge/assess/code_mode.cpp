@@ -16,6 +16,17 @@ namespace {
 
 const glm::dvec3 up(0, 0, 1);
 
+/// A plane nearer than this to a floor has the floor's map [m].
+constexpr double on_floor_m = 0.1;
+
+std::vector<glm::dvec3> places_of(const LightMap& map, double z_m) {
+  std::vector<glm::dvec3> out;
+  for (int row = 0; row < map.rows; ++row)
+    for (int column = 0; column < map.columns; ++column)
+      out.emplace_back(map.corner + glm::dvec2(column, row) * map.spacing_m, z_m);
+  return out;
+}
+
 void append(std::vector<Check>& out, const std::vector<Check>& more) {
   out.insert(out.end(), more.begin(), more.end());
 }
@@ -46,6 +57,8 @@ class CodeMode {
   std::vector<Check> checks_of_parts() const;
   /// Fills in each level's points of calculation and illuminance map.
   void fill_plan(std::vector<PlanLevel>& levels) const;
+  /// The light on each route and area, for its chart.
+  std::vector<SurfaceRecord> surfaces(const std::vector<PlanLevel>& levels) const;
 
  private:
   std::vector<Check> of_route(const EscapeRoute& route) const;
@@ -53,6 +66,10 @@ class CodeMode {
       const AssessedArea& area, double border_m,
       const std::function<std::vector<Check>(const JudgedPoints&, const CodeChoice&)>& checks)
       const;
+  SurfaceRecord surface_of(const Subject& subject, const AssessedArea& area, double border_m,
+                           const std::vector<PlanLevel>& levels) const;
+  /// Adds points of calculation to a surface, if there are any.
+  void add_grid(SurfaceRecord& surface, const char* kind, const CalculationGrid& grid) const;
   /// The light at the points of a grid and between them.
   JudgedPoints light_on(const CalculationGrid& grid) const;
 
@@ -180,13 +197,51 @@ void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
     levels[level_of(levels, p.place.z)].points.push_back({p.place, sum_of(p.lux)});
   for (size_t i = 0; i < levels.size(); ++i) {
     LightMap& map = levels[i].map = map_of(scene_, levels, i);
-    std::vector<glm::dvec3> grid;
-    for (int row = 0; row < map.rows; ++row)
-      for (int column = 0; column < map.columns; ++column)
-        grid.emplace_back(map.corner + glm::dvec2(column, row) * map.spacing_m, levels[i].floor_m);
-    for (const LitPoint& p : light_.lit(grid, up, floor_plane_m))
+    for (const LitPoint& p : light_.lit(places_of(map, levels[i].floor_m), up, floor_plane_m))
       map.lux.push_back(drawn_lux(sum_of(p.lux)));
   }
+}
+
+void CodeMode::add_grid(SurfaceRecord& surface, const char* kind,
+                        const CalculationGrid& grid) const {
+  surface.in_bodies = std::max(surface.in_bodies, grid.in_bodies);
+  if (grid.places.empty()) return;
+  SurfaceGridRecord out{.kind = kind, .points = {}, .least = 0, .mean = 0, .most = 0};
+  for (const LitPoint& p : light_.lit(grid.places, up, floor_plane_m)) {
+    const double lux = sum_of(p.lux);
+    if (out.points.empty() || lux < out.least) out.least = lux, out.darkest = p.place;
+    if (out.points.empty() || lux > out.most) out.most = lux, out.brightest = p.place;
+    out.mean += lux / static_cast<double>(grid.places.size());
+    out.points.push_back({p.place, lux});
+  }
+  surface.grids.push_back(std::move(out));
+}
+
+SurfaceRecord CodeMode::surface_of(const Subject& subject, const AssessedArea& area,
+                                   double border_m, const std::vector<PlanLevel>& levels) const {
+  SurfaceRecord out{.subject = subject, .grids = {}, .in_bodies = 0, .map = {}};
+  add_grid(out, "area", light_.points_of(area, border_m));
+  if (std::abs(levels[level_of(levels, area.z_m)].floor_m - area.z_m) < on_floor_m) return out;
+  out.map = map_over(area);
+  for (const LitPoint& p : light_.lit(places_of(out.map, area.z_m), up, floor_plane_m))
+    out.map.lux.push_back(drawn_lux(sum_of(p.lux)));
+  return out;
+}
+
+std::vector<SurfaceRecord> CodeMode::surfaces(const std::vector<PlanLevel>& levels) const {
+  std::vector<SurfaceRecord> out;
+  for (const EscapeRoute& route : scene_.routes) {
+    const RoutePoints points = light_.points_of(route);
+    out.push_back({.subject = subject_of(route), .grids = {}, .in_bodies = 0, .map = {}});
+    add_grid(out.back(), "centre", points.centre);
+    add_grid(out.back(), "band", points.band);
+  }
+  for (const AssessedArea& area : scene_.open_areas)
+    out.push_back(surface_of({SubjectKind::open_area, area.name}, area, 0.5, levels));
+  for (const AssessedArea& area : scene_.task_areas)
+    out.push_back(surface_of({SubjectKind::task_area, area.name}, area, 0, levels));
+  std::erase_if(out, [](const SurfaceRecord& surface) { return surface.grids.empty(); });
+  return out;
 }
 
 void find_floors(const SceneDescription& scene, const Building& building, Assessment& out) {
@@ -214,6 +269,7 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     const CodeMode mode(switched, now, *building.value(), out.state.codes);
     if (!furnished) {
       mode.fill_plan(out.levels);
+      out.surfaces = mode.surfaces(out.levels);
       find_floors(scene, *building.value(), out);
     }
     auto checks = mode.checks_by_light();

@@ -77,6 +77,23 @@ Box2 places_on(const SceneDescription& scene, const std::vector<PlanLevel>& leve
   return box;
 }
 
+/// The grid of a map over a box, without values.
+LightMap grid_in(const Box2& box) {
+  LightMap map;
+  if (box.empty()) return map;
+  const glm::dvec2 size = box.high - box.low;
+  const auto count = [&](double length) { return std::ceil(length / map.spacing_m - 1e-9); };
+  map.spacing_m = map_spacing_m;
+  while (count(size.x) * count(size.y) > static_cast<double>(limits::map_places))
+    map.spacing_m *= 2;
+  map.columns = static_cast<int>(count(size.x));
+  map.rows = static_cast<int>(count(size.y));
+  // Points in the middle of cells: few of them lie in walls, which often stand on round
+  // coordinates.
+  map.corner = box.low + map.spacing_m / 2;
+  return map;
+}
+
 }  // namespace
 
 std::vector<Line> longest_lines(std::vector<Line> lines) {
@@ -123,19 +140,13 @@ LightMap map_of(const SceneDescription& scene, const std::vector<PlanLevel>& lev
     box.low = glm::max(box.low, walls.low);
     box.high = glm::min(box.high, walls.high);
   }
-  LightMap map;
-  if (box.empty()) return map;
-  const glm::dvec2 size = box.high - box.low;
-  const auto count = [&](double length) { return std::ceil(length / map.spacing_m - 1e-9); };
-  map.spacing_m = map_spacing_m;
-  while (count(size.x) * count(size.y) > static_cast<double>(limits::map_places))
-    map.spacing_m *= 2;
-  map.columns = static_cast<int>(count(size.x));
-  map.rows = static_cast<int>(count(size.y));
-  // Points in the middle of cells: few of them lie in walls, which often stand on round
-  // coordinates.
-  map.corner = box.low + map.spacing_m / 2;
-  return map;
+  return grid_in(box);
+}
+
+LightMap map_over(const AssessedArea& area) {
+  Box2 box;
+  for (const glm::dvec2& p : area.outline) box.take(p);
+  return grid_in(box);
 }
 
 }  // namespace luxodus

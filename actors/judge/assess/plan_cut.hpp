@@ -35,4 +35,7 @@ std::vector<std::pair<glm::dvec2, glm::dvec2>> longest_lines(
 /// walls. The spacing is 0.25 m, doubled until the grid keeps the limit.
 LightMap map_of(const SceneDescription& scene, const std::vector<PlanLevel>& levels, size_t level);
 
+/// The same over an area alone.
+LightMap map_over(const AssessedArea& area);
+
 }  // namespace luxodus

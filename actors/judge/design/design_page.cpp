@@ -10,6 +10,7 @@
 #include "actors/judge/design/design_files.hpp"
 #include "actors/judge/design/smoke_section.hpp"
 #include "actors/judge/report/html.hpp"
+#include "actors/judge/report/page.hpp"
 #include "actors/judge/report/page_style.hpp"
 #include "actors/judge/report/plan_svg.hpp"
 #include "actors/results/formats/html_page.hpp"
@@ -78,6 +79,20 @@ std::string kind_of(const Texts& t, const PlacedLuminaireRecord& one) {
   return !from ? t("design.stays") : t.say("design.moved_from", t.place(from->x, from->y, from->z));
 }
 
+/// Input of all placed luminaires, and of how many it is not stated.
+std::string watts_of(const Texts& t, const DesignRecord& d) {
+  double watts = 0;
+  size_t unstated = 0;
+  for (const PlacedTypeRecord& type : d.types)
+    if (type.watts > 0)
+      watts += type.watts * static_cast<double>(type.count);
+    else
+      unstated += type.count;
+  std::string words = watts > 0 ? t.say("design.total_watts", t.number(watts, 4)) : "";
+  if (unstated > 0) words += (words.empty() ? "" : " ") + t.say("design.watts_unstated", unstated);
+  return words.empty() ? "" : paragraph(words);
+}
+
 std::string schedule_of(const Texts& t, const DesignRecord& d) {
   std::string types, rows;
   for (const PlacedTypeRecord& type : d.types)
@@ -100,7 +115,7 @@ std::string schedule_of(const Texts& t, const DesignRecord& d) {
                {36, 10, 17, 13, 12, 12}, types) +
          table(t, {"design.name", "column.type", "design.x", "design.y", "design.z", "design.turn"},
                {26, 34, 10, 10, 10, 10}, rows) +
-         (gone.empty() ? "" : paragraph(t.say("design.removed", gone)));
+         watts_of(t, d) + (gone.empty() ? "" : paragraph(t.say("design.removed", gone)));
 }
 
 std::string ways_of(const Texts& t, const PlacedSignRecord& sign) {
@@ -243,17 +258,19 @@ std::string design_page(const DesignRecord& d, const AssessmentRecord& a,
                         const std::vector<LayoutPlan>& plans, Language language) {
   const Texts t(language);
   const Schedule schedule(a);
-  std::string title = d.scene.title;
-  if (title.empty()) title = d.scene.name;
-  const std::string body = "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") +
-                           "<h1>" + escaped(title) + "</h1></div></header>\n" + outcome(t, d) +
-                           notice(t, d.smoke.has_value()) + (d.smoke ? smoke_section(t, d) : "") +
-                           side_by_side(t, d, plans) + heading(t, "heading.plans") +
-                           plans_of(t, a, schedule) + heading(t, "heading.schedules") +
-                           schedule_of(t, d) + (d.signs ? signs_of(t, *d.signs) : "") +
-                           heading(t, "design.binding_heading") + binding(t, d) + off_place(t, d) +
-                           others(t, d) + heading(t, "design.settings_heading") + settings(t, d);
-  return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
+  std::string title = a.project.name;
+  if (title.empty()) title = d.scene.title.empty() ? d.scene.name : d.scene.title;
+  const std::string body =
+      "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") + "<h1>" +
+      escaped(title) + "</h1></div></header>\n" + project_block(t, a.project, a.scene) +
+      outcome(t, d) + notice(t, d.smoke.has_value()) + (d.smoke ? smoke_section(t, d) : "") +
+      side_by_side(t, d, plans) + heading(t, "heading.plans") + plans_of(t, a, schedule) +
+      heading(t, "heading.schedules") + schedule_of(t, d) + (d.signs ? signs_of(t, *d.signs) : "") +
+      heading(t, "design.binding_heading") + binding(t, d) + off_place(t, d) + others(t, d) +
+      heading(t, "design.settings_heading") + settings(t, d);
+  return html_page({t.code(), title + " – " + t("design.page"),
+                    page_rule(t, a.project, title, false) + report_style},
+                   body);
 }
 
 }  // namespace luxodus

@@ -88,17 +88,21 @@ namespace {
 
 // ---- what no list of fields says ---------------------------------------------------------------
 
+Result<void> check_map(const LightMap& map, const char* where) {
+  const double places = static_cast<double>(map.columns) * map.rows;
+  if (map.columns < 0 || map.rows < 0 || places > static_cast<double>(limits::record_map) ||
+      places != static_cast<double>(map.lux.size()))
+    return problem(std::string(where) + ": a map has not as many values as it has places");
+  if (map.columns > 0 && !(map.spacing_m >= 1e-3 && map.spacing_m <= limits::field_metres))
+    return problem(std::string(where) + ": a map has no spacing");
+  return {};
+}
+
 /// Checks what drawings of a report iterate over and divide by.
 Result<void> check_plan(const AssessmentRecord& a) {
   if (a.plan.levels.empty()) return problem("plan.levels is empty");
   for (const PlanLevel& level : a.plan.levels) {
-    const LightMap& map = level.map;
-    const double places = static_cast<double>(map.columns) * map.rows;
-    if (map.columns < 0 || map.rows < 0 || places > static_cast<double>(limits::record_map) ||
-        places != static_cast<double>(map.lux.size()))
-      return problem("plan.levels: a map has not as many values as it has places");
-    if (map.columns > 0 && !(map.spacing_m >= 1e-3 && map.spacing_m <= limits::field_metres))
-      return problem("plan.levels: a map has no spacing");
+    if (auto ok = check_map(level.map, "plan.levels"); !ok) return ok;
     if (std::abs(level.floor_m) > limits::field_metres)
       return problem("plan.levels: a floor is farther off than any scene");
   }
@@ -107,6 +111,25 @@ Result<void> check_plan(const AssessmentRecord& a) {
   for (const AreaRecord& area : a.places.areas)
     if (area.outline.size() < 3)
       return problem("places.areas: an outline has less than three corners");
+  return {};
+}
+
+/// Checks what sheets, rooms and charts iterate over and divide by.
+Result<void> check_drawn(const AssessmentRecord& a) {
+  for (const LuminaireRecord& one : a.luminaires)
+    if (one.sheet >= a.sheets.size()) return problem("luminaires: one has no sheet");
+  for (const SheetRecord& sheet : a.sheets)
+    if (sheet.c0_c180.size() != sheet.c90_c270.size() ||
+        (!sheet.c0_c180.empty() && sheet.c0_c180.size() % 2 == 0))
+      return problem("sheets: a curve is not whole");
+  for (const RoomRecord& room : a.rooms)
+    if (room.outline.size() < 3) return problem("rooms: an outline has less than three corners");
+  for (const SurfaceRecord& surface : a.surfaces) {
+    if (auto ok = check_map(surface.map, "surfaces"); !ok) return ok;
+    if (surface.grids.empty()) return problem("surfaces: one has no points");
+    for (const SurfaceGridRecord& grid : surface.grids)
+      if (grid.points.empty()) return problem("surfaces: one has no points");
+  }
   return {};
 }
 
@@ -254,6 +277,7 @@ Result<AssessmentRecord> assessment_of(const Json& json) {
   AssessmentRecord out;
   if (auto ok = read_fields(json, out); !ok) return ok.problem();
   if (auto ok = check_plan(out); !ok) return ok.problem();
+  if (auto ok = check_drawn(out); !ok) return ok.problem();
   if (auto ok = check_pictures(out); !ok) return ok.problem();
   if (out.over_time)
     if (auto ok = complete(*out.over_time); !ok) return ok.problem();

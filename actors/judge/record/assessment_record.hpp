@@ -13,6 +13,7 @@
 #include "actors/judge/record/guidance_record.hpp"
 #include "actors/judge/record/inputs_record.hpp"
 #include "actors/judge/record/plan_record.hpp"
+#include "actors/judge/record/sheet_record.hpp"
 #include "actors/judge/record/threshold_record.hpp"
 #include "actors/judge/texts/texts.hpp"
 #include "scenes/emergency/legibility.hpp"
@@ -20,7 +21,7 @@
 
 namespace luxodus {
 
-inline constexpr const char* assessment_format = "luxodus assessment 3";
+inline constexpr const char* assessment_format = "luxodus assessment 4";
 
 struct SceneRecord {
   std::string name, title, file;
@@ -423,8 +424,11 @@ struct AssessmentRecord {
   ProjectRecord project;
   ScenarioRecord scenario;
   std::vector<LuminaireRecord> luminaires;
+  std::vector<SheetRecord> sheets;
   std::vector<SignRecord> signs;
   PlacesRecord places;
+  std::vector<RoomRecord> rooms;
+  std::vector<SurfaceRecord> surfaces;
   std::vector<MaterialRecord> materials;
   std::vector<MediumRecord> media;
   std::vector<std::string> cameras;
@@ -439,7 +443,8 @@ struct AssessmentRecord {
     field("thresholds", m.thresholds, {.or_left_out = true});
     field("over_time", m.over_time)("warnings", m.warnings);
     field("project", m.project)("scenario", m.scenario)("luminaires", m.luminaires);
-    field("signs", m.signs)("places", m.places)("materials", m.materials)("media", m.media);
+    field("sheets", m.sheets)("signs", m.signs)("places", m.places)("rooms", m.rooms);
+    field("surfaces", m.surfaces)("materials", m.materials)("media", m.media);
     field("cameras", m.cameras)("plan", m.plan);
   }
 };

@@ -70,6 +70,7 @@ struct LuminaireRecord {
   std::string ifc_guid;
   std::optional<glm::dvec3> opening_m;
   std::vector<glm::dvec2> onset;  // seconds and share of the flux
+  size_t sheet = 0;               // its place among the sheets
   static constexpr void fields(auto&& field, auto& m) {
     field("name", m.name)("file", m.file)("product", m.product)("shape", m.shape);
     field("distribution", m.distribution)("position", m.position);
@@ -79,7 +80,7 @@ struct LuminaireRecord {
     field("end_of_duration_factor", m.end_of_duration_factor);
     field("emergency_ageing", m.emergency_ageing);
     field("ifc_guid", m.ifc_guid, {.or_left_out = true});
-    field("opening_m", m.opening_m)("onset", m.onset);
+    field("opening_m", m.opening_m)("onset", m.onset)("sheet", m.sheet);
   }
   bool operator==(const LuminaireRecord&) const = default;
 };
@@ -142,6 +143,20 @@ struct AreaRecord {
     field("z", m.z_m);
     field("ifc_guid", m.ifc_guid, {.or_left_out = true});
     field("mains_lx", m.mains_lx);
+  }
+};
+
+/// A room, or an area where the scene names no rooms, with what is in it.
+struct RoomRecord {
+  std::string name;
+  std::vector<glm::dvec2> outline;
+  double z_m = 0, area_m2 = 0;
+  size_t emergency = 0, mains = 0, signs = 0;  // numbers of luminaires and signs
+  std::string ifc_guid;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("name", m.name)("outline", m.outline)("z", m.z_m)("area_m2", m.area_m2);
+    field("emergency_luminaires", m.emergency)("mains_luminaires", m.mains)("signs", m.signs);
+    field("ifc_guid", m.ifc_guid, {.or_left_out = true});
   }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/judge/record/inputs_record.hpp"
+#include "actors/judge/record/record_forms.hpp"
 
 namespace luxodus {
 
@@ -55,6 +56,30 @@ struct PlanLevel {
   static constexpr void fields(auto&& field, auto& m) {
     field("floor", m.floor_m)("walls", m.walls)("furniture", m.furniture)("points", m.points);
     field("map", m.map);
+  }
+};
+
+/// Points of calculation of one kind on a surface, with their statistics [lx].
+struct SurfaceGridRecord {
+  std::string kind;  // "centre", "band" of a route; "area"
+  std::vector<PlanPoint> points;
+  double least = 0, mean = 0, most = 0;
+  glm::dvec3 darkest{0}, brightest{0};
+  static constexpr void fields(auto&& field, auto& m) {
+    field("kind", m.kind)("points", m.points);
+    field("least", m.least, {.unit = "lx"})("mean", m.mean, {.unit = "lx"});
+    field("most", m.most, {.unit = "lx"})("darkest", m.darkest)("brightest", m.brightest);
+  }
+};
+
+/// A route, an open area or a task area, lit as PlanPoint says, without furniture.
+struct SurfaceRecord {
+  Subject subject;
+  std::vector<SurfaceGridRecord> grids;  // at least one; none has no points
+  size_t in_bodies = 0;                  // points left out, in bodies
+  LightMap map;                          // of a plane above the floor, else empty
+  static constexpr void fields(auto&& field, auto& m) {
+    field("subject", m.subject)("grids", m.grids)("in_bodies", m.in_bodies)("map", m.map);
   }
 };
 

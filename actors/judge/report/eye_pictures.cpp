@@ -50,7 +50,7 @@ std::optional<std::string> png_text(std::string_view png, std::string_view key) 
 std::vector<ReportPicture> pictures_in(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::vector<ReportPicture> out;
-  for (const fs::path& views : {folder / "views", folder / "run" / "views"}) {
+  for (const fs::path& views : {folder / "run" / "views", folder / "views"}) {
     std::error_code failed;
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(views, failed))

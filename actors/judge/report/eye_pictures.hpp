@@ -23,7 +23,7 @@ struct ReportPicture {
   std::string png;
 };
 
-/// Pictures of `luxodus run` and `render` in folder/views and folder/run/views, by name.
+/// Pictures of `luxodus run` and `render` in folder/run/views, else those of folder/views, by name.
 std::vector<ReportPicture> pictures_in(const std::filesystem::path& folder);
 
 /// The uncompressed text that a PNG stores under a key; none if there is none or if the bytes are

@@ -17,7 +17,7 @@ CsvTable signs_csv(const AssessmentRecord& assessment, const Schedule& schedule)
 CsvTable materials_csv(const AssessmentRecord& assessment, const Schedule& schedule);
 /// Every check of a route or an area with its worst place.
 CsvTable places_csv(const AssessmentRecord& assessment);
-/// Illuminance at each point of calculation on routes and in areas.
+/// Illuminance at each point of calculation on routes and in areas, as their charts have it.
 CsvTable points_csv(const AssessmentRecord& assessment, const Schedule& schedule);
 
 /// A plan of one level in metres: layers WALLS, FURNITURE, LUMINAIRES, SIGNS, ROUTES, AREAS,

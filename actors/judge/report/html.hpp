@@ -17,12 +17,14 @@ struct PageParts {
   const Schedule& schedule;
   const Texts& texts;
   const std::vector<ReportPicture>& pictures;
-  std::string folder;  // of the assessment, for the commands on the page
   double paper_width_mm = 180, paper_height_mm = 257;  // within the margins, portrait
   bool grid_values = false;
 };
 
 std::string escaped(const std::string& text);
+
+/// A path that may break after a folder, but not before a file's extension, in a narrow column.
+std::string breaking_at_slashes(const std::string& path);
 
 std::string cell(const std::string& text);
 std::string html_cell(const std::string& html, const char* css_class = "");

@@ -1,4 +1,4 @@
-// Sections with plans, schedules, and checks of routes and areas.
+// Sections with plans, signs and the bill of materials.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,16 +11,6 @@ namespace luxodus {
 
 namespace {
 
-/// Lets a path in a narrow column break after a folder, but not before a file's extension.
-std::string breaking_at_slashes(const std::string& path) {
-  std::string out;
-  for (const char c : escaped(path)) {
-    out += c;
-    if (c == '/') out += "<wbr>";
-  }
-  return out;
-}
-
 /// A plan on its own sheet, portrait or landscape, whichever shows it larger.
 std::string plan_sheet(const PageParts& parts, const std::string& title, const std::string& note,
                        const Plan& plan) {
@@ -29,60 +19,6 @@ std::string plan_sheet(const PageParts& parts, const std::string& title, const s
   return "<section class=\"" + std::string(across ? "wide" : "sheet") + "\">\n" +
          subheading(title) + "<figure class=\"plan\">" + plan.svg + "<figcaption>" + escaped(note) +
          "</figcaption></figure>\n</section>\n";
-}
-
-/// Coordinates of all members, with their names.
-template <class Thing>
-std::string coordinates(const PageParts& parts, const std::vector<Thing>& things,
-                        const std::vector<size_t>& members) {
-  std::string out;
-  for (const size_t i : members) {
-    const glm::dvec3& p = things[i].position;
-    out += (out.empty() ? "" : "; ") + ("<b>" + escaped(things[i].name) + "</b> ") +
-           escaped(parts.texts.place(p.x, p.y, p.z));
-  }
-  return out;
-}
-
-std::string opening_text(const Texts& texts, const LuminaireRecord& luminaire) {
-  const auto& at = luminaire.opening_m;
-  if (!at) return "";
-  return texts.fixed((*at)[0], 2) + " × " + texts.fixed((*at)[1], 2) + " m";
-}
-
-std::string type_rows(const PageParts& parts, const LuminaireType& type) {
-  const Texts& t = parts.texts;
-  const LuminaireRecord& one = *type.one;
-  const std::string product = product_of(one);
-  std::string what =
-      product.empty()
-          ? escaped(t.word("shape", one.shape) + ", " + t.word("light", one.distribution))
-          : escaped(product);
-  if (!one.file.empty() && one.file != product)
-    what += "<br><code>" + breaking_at_slashes(one.file) + "</code>";
-  if (const std::string opening = opening_text(t, one); !opening.empty())
-    what += "<br>" + escaped(t.say("lamp.opening", opening));
-  const auto flux = [&](const QuantityRecord& q) {
-    return q.value > 0 ? number_cell(t, q.value, q.unit, 4) : no_number_cell();
-  };
-  return "<tr class=\"lead\">" + html_cell("<b>" + type.letter + "</b>") + html_cell(what) +
-         cell(t.word("lamp", one.operation)) + flux(one.mains_flux) + flux(one.emergency_flux) +
-         number_cell(t, one.maintenance_factor) +
-         (type.emergency() ? number_cell(t, one.end_of_duration_factor) : no_number_cell()) +
-         html_cell("<b>" + std::to_string(type.members.size()) + "</b>", "n") +
-         "</tr>\n<tr class=\"places\"><td></td><td colspan=\"7\">" +
-         coordinates(parts, parts.a.luminaires, type.members) + "</td></tr>\n";
-}
-
-std::string luminaire_schedule(const PageParts& parts) {
-  std::string rows;
-  for (const LuminaireType& type : parts.schedule.types()) rows += type_rows(parts, type);
-  if (rows.empty()) return paragraph(parts.texts("schedule.no_luminaires"));
-  return table(parts.texts,
-               {"column.type", "column.luminaire", "column.operation", "column.mains_flux",
-                "column.emergency_flux", "column.maintenance", "column.duration", "column.count"},
-               {5, 33, 17, 10, 10, 10, 8, 7}, rows, "schedule") +
-         paragraph(parts.texts("schedule.luminaires_note"), "note");
 }
 
 std::string sign_face(const Texts& t, const SignRecord& sign) {
@@ -154,69 +90,6 @@ std::string bill_of_materials(const PageParts& parts) {
                rows);
 }
 
-std::string limit_text(const Texts& t, const Check& check) {
-  if (!check.limit) return "–";
-  const std::string unit = unit_text(t, check.unit);
-  return std::string(check.at_least ? "≥\u00a0" : "≤\u00a0") + t.number(*check.limit) +
-         (unit.empty() ? "" : "\u00a0" + unit);
-}
-
-std::string place_text(const Texts& t, const Check& check) {
-  const auto& at = check.worst;
-  return at ? t.place(at->x, at->y, at->z) : "–";
-}
-
-std::string check_row(const Texts& t, const Check& check, bool with_subject) {
-  const std::string rule(name_of(check.rule.id));
-  const std::optional<double> margin = check.margin();
-  std::string what = escaped(t.rule_title(rule));
-  if (with_subject) what = "<b>" + escaped(t.subject(check.subject)) + "</b><br>" + what;
-  std::string notes = escaped(t.remarks(check.conditions));
-  if (!check.reasons.empty())
-    notes += (notes.empty() ? "" : "<br>") + remark_html(t, check.reasons);
-  return "<tr>" + verdict_cell(t, "verdict", name_of(check.verdict)) +
-         html_cell(what + " <span class=\"id\">" + escaped(rule) + "</span>") +
-         number_cell(t, check.value, check.unit) + html_cell(escaped(limit_text(t, check)), "n") +
-         html_cell(margin ? t.percent(*margin) : "–", "n") +
-         html_cell(escaped(place_text(t, check)), "n") + html_cell(notes) + "</tr>\n";
-}
-
-constexpr const char* check_columns[] = {"column.verdict", "column.check",  "column.value",
-                                         "column.limit",   "column.margin", "column.worst_at",
-                                         "column.remark"};
-
-std::string check_table(const PageParts& parts, const std::string& rows) {
-  return table(parts.texts, {std::begin(check_columns), std::end(check_columns)},
-               {13, 22, 11, 10, 8, 15, 21}, rows, "checks");
-}
-
-/// A row for each check under a heading for each subject, in the order of their first checks.
-/// `places`: routes and areas only, else all other subjects.
-std::string rows_by_subject(const PageParts& parts, bool places) {
-  std::vector<Subject> subjects;
-  for (const CheckRecord& check : parts.a.checks) {
-    if (std::find(subjects.begin(), subjects.end(), check.subject) == subjects.end())
-      subjects.push_back(check.subject);
-  }
-  std::string rows;
-  for (const Subject& subject : subjects) {
-    if (subject.is_place() != places) continue;
-    rows += heading_row(escaped(parts.texts.subject(subject)), std::size(check_columns));
-    for (const CheckRecord& check : parts.a.checks)
-      if (check.subject == subject) rows += check_row(parts.texts, check, false);
-  }
-  return rows;
-}
-
-/// Findings of the inspection are in English in every language.
-std::string warning_html(const Texts& t, const WarningRecord& warning) {
-  if (!warning.remark)
-    return (t.language() == Language::en ? "<i>" : "<i lang=\"en\">") + escaped(warning.text) +
-           "</i>";
-  const SourcePlace place{warning.file, warning.line};
-  return "<i>" + escaped(problem_in(place, t.remark(*warning.remark)).text()) + "</i>";
-}
-
 }  // namespace
 
 std::string plans_section(const PageParts& parts) {
@@ -243,39 +116,8 @@ std::string plans_section(const PageParts& parts) {
 
 std::string schedules_section(const PageParts& parts) {
   const Texts& t = parts.texts;
-  return subheading(t("schedule.luminaires")) + luminaire_schedule(parts) +
-         subheading(t("schedule.signs")) + sign_schedule(parts) +
+  return subheading(t("schedule.signs")) + sign_schedule(parts) +
          subheading(t("schedule.materials")) + bill_of_materials(parts);
-}
-
-std::string places_section(const PageParts& parts) {
-  const std::string rows = rows_by_subject(parts, true);
-  if (rows.empty()) return paragraph(parts.texts("places.none"));
-  return paragraph(parts.texts("places.lead")) + check_table(parts, rows);
-}
-
-std::string other_checks_appendix(const PageParts& parts) {
-  return check_table(parts, rows_by_subject(parts, false));
-}
-
-std::string verdict_section(const PageParts& parts) {
-  const Texts& t = parts.texts;
-  std::string fails, unverified;
-  for (const CheckRecord& check : parts.a.checks) {
-    if (check.verdict == CheckVerdict::fail) fails += check_row(t, check, true);
-    if (check.verdict == CheckVerdict::not_verified) unverified += check_row(t, check, true);
-  }
-  std::string out = subheading(t("verdict.fails"));
-  out += fails.empty() ? paragraph(t("verdict.nothing_fails")) : check_table(parts, fails);
-  if (!unverified.empty())
-    out += subheading(t("verdict.unverified_checks")) + check_table(parts, unverified);
-  if (!parts.a.warnings.empty()) {
-    out += subheading(t("verdict.warnings")) + "<ul>\n";
-    for (const WarningRecord& warning : parts.a.warnings)
-      out += "<li>" + warning_html(t, warning) + "</li>\n";
-    out += "</ul>\n";
-  }
-  return out + paragraph(t("verdict.remarks_english"), "note");
 }
 
 }  // namespace luxodus

@@ -1,4 +1,4 @@
-// The record of an assessment: inputs, clauses, what was not assessed, method and sources.
+// The record of an assessment: inputs, what was not assessed, method, and provenance of limits.
 #include <algorithm>
 #include <map>
 
@@ -177,7 +177,14 @@ std::string or_dash(const std::string& text) {
   return text.empty() ? "–" : text;
 }
 
-std::string clauses_section(const PageParts& parts) {
+/// The edition whose clause a rule names: a set of 2024 takes rules over from 2013, and names the
+/// clauses of that.
+std::string edition_text(const Texts& t, const Rule& rule) {
+  return rule.carried_over() && !rule.clause.empty() ? t.say("edition.carried_over", rule.edition)
+                                                     : t.word("edition", rule.edition);
+}
+
+std::string clauses_appendix(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::map<std::string, const CheckRecord*> rules;  // by edition, clause and id
   std::map<std::string, std::map<std::string, int>> verdicts;
@@ -195,17 +202,34 @@ std::string clauses_section(const PageParts& parts) {
                 escaped(t.word("verdict", verdict));
     const Rule& rule = check->rule;
     const std::string id(name_of(rule.id));
-    rows += "<tr>" + html_cell("<b>" + escaped(id) + "</b>") +
-            cell(t.word("edition", rule.edition)) + cell(or_dash(t.clause(rule))) +
-            cell(t.rule_title(id)) + cell(or_dash(t.remarks(rule.sources))) +
-            cell(t.word("status", source_status(rule))) + html_cell(counts) + "</tr>\n";
+    rows += "<tr>" + html_cell("<b>" + escaped(id) + "</b>") + cell(edition_text(t, rule)) +
+            cell(or_dash(rule.clause)) + cell(t.rule_title(id)) +
+            cell(or_dash(t.remarks(rule.sources))) + cell(t.word("status", source_status(rule))) +
+            html_cell(counts) + "</tr>\n";
   }
   if (rows.empty()) return paragraph(t("clauses.none"));
   return paragraph(t("clauses.lead")) +
          table(t,
                {"column.rule", "column.edition", "column.clause", "column.asks", "column.source",
                 "column.status", "column.verdicts"},
-               {7, 15, 9, 27, 16, 11, 15}, rows);
+               {6, 21, 8, 27, 15, 11, 12}, rows);
+}
+
+Provenance provenance_of(const AssessmentRecord& a) {
+  std::map<std::string, const Rule*> rules;
+  for (const CheckRecord& check : a.checks)
+    if (check.rule.id != RuleId::none)
+      rules.try_emplace(
+          check.rule.set + "\n" + check.rule.deviation + "\n" + std::string(name_of(check.rule.id)),
+          &check.rule);
+  Provenance out;
+  for (const auto& [key, rule] : rules) {
+    ++out.rules;
+    const std::string status = source_status(*rule);
+    out.secondary += status == "secondary";
+    out.recollected += status == "recollection";
+  }
+  return out;
 }
 
 std::string not_assessed_section(const PageParts& parts) {

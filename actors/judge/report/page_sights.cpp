@@ -18,8 +18,6 @@ namespace {
 /// Visibility level from which the smallest detail of a legend is read.
 constexpr double reading_level = 7;
 constexpr size_t thumb_places = 10;
-/// Largest number of rows of the appendix; sights.csv has all views.
-constexpr size_t appendix_rows = 400;
 
 std::vector<double> heights_of(const AssessmentRecord& a) {
   std::set<double, std::greater<>> heights;
@@ -181,53 +179,6 @@ CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
   return out;
 }
 
-/// For a scene without cameras: HTML with cameras that show each of the worst signs from the place
-/// where it is seen worst.
-std::string suggested_cameras(const PageParts& parts) {
-  constexpr size_t most = 3;
-  std::map<std::string, const SightRecord*> worst;  // by sign
-  for (const SightRecord& sight : parts.a.sights) {
-    const size_t rank = rank_of(sight.verdict);
-    if (rank == 0 || rank > 3) continue;  // legible, or not visible from here
-    const auto known = worst.try_emplace(sight.sign, &sight).first;
-    if (rank > rank_of(known->second->verdict)) known->second = &sight;
-  }
-  std::string out;
-  size_t count = 0;
-  for (const SignRecord& sign : parts.a.signs) {
-    const auto at = worst.find(sign.name);
-    if (at == worst.end() || ++count > most) continue;
-    const auto vector = [](const glm::dvec3& v) {
-      return fmt::format("[{:g}, {:g}, {:g}]", v.x, v.y, v.z);
-    };
-    out += fmt::format(
-        "{}[[camera]]\nname = {}\neye = {}\ntarget = {}\nvertical_fov_deg = 30\nwidth = "
-        "640\nheight = 360\n",
-        out.empty() ? "" : "\n", escaped(Json(at->first).dump()), vector(at->second->eye),
-        vector(sign.position));
-  }
-  return out;
-}
-
-/// Commands that make the missing pictures.
-std::string how_to_make_pictures(const PageParts& parts) {
-  const Texts& t = parts.texts;
-  std::string out;
-  if (parts.a.cameras.empty()) {
-    out = paragraph(t("sights.no_cameras"), "note");
-    const std::string cameras = suggested_cameras(parts);
-    if (!cameras.empty())
-      out += paragraph(t("sights.add_cameras")) + "<pre>" + cameras + "</pre>\n";
-    return out;
-  }
-  const std::string run =
-      "luxodus run " + parts.a.scene.file +
-      (parts.a.scene.scenario.empty() ? "" : " --scenario \"" + parts.a.scene.scenario + "\"") +
-      " --out " + parts.folder + "/run";
-  return paragraph(t("sights.no_pictures")) + "<pre>" + escaped(run) + "\n" +
-         escaped("luxodus report " + parts.folder) + "</pre>\n";
-}
-
 /// Pictures by camera; the plain exposure is shown only if there is no better picture.
 std::string pictures(const PageParts& parts) {
   const Texts& t = parts.texts;
@@ -241,7 +192,8 @@ std::string pictures(const PageParts& parts) {
                         base64(picture->png) + "\">",
                     camera + ": " + t(name));
     }
-  out = out.empty() ? how_to_make_pictures(parts) : "<div class=\"pictures\">\n" + out + "</div>\n";
+  out = out.empty() ? paragraph(t("sights.no_pictures"), "note")
+                    : "<div class=\"pictures\">\n" + out + "</div>\n";
   if (others > 0) out += paragraph(t.say("sights.other_pictures", others), "note");
   return out;
 }
@@ -362,17 +314,9 @@ std::string thumb_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   const auto all = differences(parts.a.sights);
   if (all.empty()) return paragraph(t("thumb.none"));
-  return paragraph(t.say("thumb.lead", all.size(), std::min(all.size(), thumb_places))) +
-         thumb_table(parts, all, thumb_places);
-}
-
-std::string thumb_appendix(const PageParts& parts) {
-  const auto all = differences(parts.a.sights);
-  if (all.size() <= thumb_places) return "";
-  std::string out = thumb_table(parts, all, appendix_rows);
-  if (all.size() > appendix_rows)
-    out += paragraph(parts.texts.say("thumb.cut", appendix_rows, all.size()), "note");
-  return out;
+  const size_t shown = std::min(all.size(), thumb_places);
+  return paragraph(t.say("thumb.lead", all.size(), shown)) + thumb_table(parts, all, shown) +
+         (all.size() > shown ? paragraph(t("thumb.all"), "note") : "");
 }
 
 std::string signs_appendix(const PageParts& parts) {

@@ -14,8 +14,11 @@ h1 { font-size: 2rem; line-height: 1.15; margin: 0.2rem 0 0.3rem; letter-spacing
 h2 { font-size: 1.35rem; margin: 2.6rem 0 0.7rem; padding-bottom: 0.25rem; color: var(--accent);
   border-bottom: 2px solid var(--accent); break-after: avoid; }
 h2 .n { display: inline-block; min-width: 2.2rem; }
+h2 .a { margin-right: 0.8rem; }
+h4 { font-size: 0.92rem; margin: 0.9rem 0 0.3rem; break-after: avoid; }
 h3 { font-size: 1.02rem; margin: 1.5rem 0 0.5rem; break-after: avoid; }
 p { margin: 0.4rem 0 0.7rem; }
+h2 + p { break-after: avoid; }
 a { color: inherit; text-decoration: none; }
 code, pre { font-family: "Liberation Mono", "DejaVu Sans Mono", monospace; font-size: 0.88em; }
 pre { background: var(--pale); border: 1px solid var(--line); padding: 0.6rem 0.8rem;
@@ -44,16 +47,23 @@ dl { margin: 0; }
 .contents li { break-inside: avoid; border-bottom: 1px dotted var(--line); padding: 0.12rem 0; }
 .contents a { display: flex; gap: 0.5rem; }
 .contents .n { flex: 0 0 1.6rem; color: var(--soft); }
+.contents .a { flex: 0 0 auto; color: var(--soft); }
 .contents .t { flex: 1; }
 table { border-collapse: collapse; width: 100%; table-layout: fixed; font-size: 0.8rem;
   line-height: 1.3; margin: 0.5rem 0 0.8rem; }
 th, td { border-bottom: 1px solid var(--line); padding: 0.28rem 0.4rem; text-align: left;
   vertical-align: top; overflow-wrap: break-word; hyphens: auto; }
 thead th { border-bottom: 1.5px solid var(--ink); vertical-align: bottom; color: var(--soft);
-  font-weight: bold; font-size: 0.94em; }
+  font-weight: bold; font-size: 0.94em; hyphens: manual; overflow-wrap: normal; }
 thead { display: table-header-group; }
 tr { break-inside: avoid; }
 td.n, th.n { text-align: right; }
+td.c, th.c { text-align: center; }
+table.spacing th, table.spacing td { padding: 0.07rem 0.25rem; font-size: 0.72rem; }
+div.product table.facts { font-size: 0.74rem; margin: 0; }
+div.product table.facts th, div.product table.facts td { padding: 0.12rem 0.3rem; }
+nav { break-before: page; }
+
 tr.group th { background: var(--pale); padding-top: 0.45rem; break-after: avoid; }
 tr.lead td { border-bottom: 0; }
 tr.places td { font-size: 0.74rem; color: var(--soft); break-inside: auto; }
@@ -68,9 +78,17 @@ i[lang] { color: var(--soft); }
 figure { margin: 0.7rem 0 1.1rem; break-inside: avoid; }
 figure svg, figure img { max-width: 100%; height: auto; display: block; }
 figure.plan > svg { width: 100%; border: 1px solid var(--line); }
+figure.cover { margin: 0.4rem 0; }
+figure.cover > svg { margin: 0 auto; }
+figure.chart > svg { border: 1px solid var(--line); margin: 0 auto; }
+section.product, section.surface { break-inside: avoid; }
+div.product { display: grid; grid-template-columns: auto 1fr; gap: 0 1.2rem; align-items: start; }
+div.product .drawings { display: flex; gap: 0.6rem; align-items: center; }
+div.product svg { display: block; }
 figcaption { font-size: 0.8rem; color: var(--soft); margin-top: 0.3rem; }
 figcaption b { color: var(--ink); }
 .pictures, .maps { display: grid; grid-template-columns: 1fr 1fr; gap: 0.2rem 1.2rem; }
+.pictures { grid-template-columns: 1fr 1fr 1fr; }
 .pictures figure, .maps figure { margin: 0.3rem 0 0; }
 .maps svg { width: 100%; border: 1px solid var(--line); }
 @media print {
@@ -82,9 +100,9 @@ figcaption b { color: var(--ink); }
   section.wide { page: wide; }
   section.sheet h3, section.wide h3 { margin-top: 0; }
   table.facts, nav, pre { break-inside: avoid; }
-  h2.plans { break-before: page; page: wide; }
-  h2.plans + section { break-before: avoid; }
+  section.sheet h2, section.wide h2 { margin-top: 0; }
   figure.plan > svg { width: auto; max-height: 165mm; margin: 0 auto; border: 0; }
+  figure.chart > svg { border: 0; }
   .contents .p { color: var(--soft); }
   .box .words { font-size: 13pt; }
 }

@@ -10,55 +10,17 @@
 #include <vector>
 
 #include "actors/judge/report/isolux.hpp"
-#include "actors/judge/report/svg_sheet.hpp"
-#include "actors/results/formats/light_colours.hpp"
+#include "actors/judge/report/plan_parts.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 
 namespace {
 
-constexpr const char* emergency_colour = "#0b6e3c";
-constexpr const char* wall_style = "stroke=\"#222\" stroke-width=\"0.35\" stroke-linecap=\"round\"";
-constexpr const char* furniture_style = "stroke=\"#b9b9b9\" stroke-width=\"0.15\"";
 constexpr const char* backdrop_style = "stroke=\"#555\" stroke-width=\"0.15\"";
-constexpr const char* route_style =
-    "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.5\" stroke-dasharray=\"2.4 1.2\"";
 constexpr const char* area_style =
     "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.3\" stroke-dasharray=\"0.3 1\" "
     "stroke-linecap=\"round\"";
-
-/// Boxes that are already drawn, so that labels do not overlap them or each other.
-class LabelSpace {
- public:
-  void reserve(double x, double y, double width, double height) {
-    boxes_.push_back({x - width / 2, y - height / 2, x + width / 2, y + height / 2});
-  }
-  /// Reserves a box around (x, y) [mm] if it is free, and returns whether it was.
-  bool take(double x, double y, double width, double height) {
-    const Box box{x - width / 2, y - height / 2, x + width / 2, y + height / 2};
-    const bool is_free = std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& other) {
-      return box.left < other.right && other.left < box.right && box.top < other.bottom &&
-             other.top < box.bottom;
-    });
-    if (is_free) boxes_.push_back(box);
-    return is_free;
-  }
-
- private:
-  struct Box {
-    double left, top, right, bottom;
-  };
-  std::vector<Box> boxes_;
-};
-
-std::string lines_path(const std::vector<DrawnLine>& lines, const Sheet& sheet, const char* style) {
-  std::string path;
-  for (const auto& [from, to] : lines)
-    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(from.x), sheet.y(from.y),
-                        sheet.x(to.x), sheet.y(to.y));
-  return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"none\" " + style + "/>\n";
-}
 
 /// A picture whose pixels span 0 to 1 along its edges, the upper row first.
 std::string backdrop_picture(const BackdropRecord& one, const Sheet& sheet) {
@@ -90,26 +52,6 @@ std::string backdrops(const AssessmentRecord& a, size_t level, const Sheet& shee
          pictures + lines + "</svg>\n";
 }
 
-std::string building(const PlanLevel& level, const Sheet& sheet) {
-  return "<g class=\"furniture\">" + lines_path(level.furniture, sheet, furniture_style) +
-         "</g>\n<g class=\"walls\">" + lines_path(level.walls, sheet, wall_style) + "</g>\n";
-}
-
-template <class Point>
-std::string path_of(const std::vector<Point>& points, const Sheet& sheet, bool closed) {
-  std::string out;
-  for (const Point& p : points)
-    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", sheet.x(p.x), sheet.y(p.y));
-  return out + (closed ? "Z" : "");
-}
-
-std::string route_end(double x, double y, double turn) {
-  return fmt::format(
-      "<path d=\"M0 0L-2.6 -1.1V1.1Z\" fill=\"#1f5fa8\" transform=\"translate({:.2f} {:.2f}) "
-      "rotate({:.1f})\"/>\n",
-      x, y, turn);
-}
-
 /// Areas, and routes with an arrow at their ends.
 std::string places(const AssessmentRecord& a, const Schedule& schedule, size_t level,
                    const Sheet& sheet) {
@@ -133,13 +75,19 @@ std::string places(const AssessmentRecord& a, const Schedule& schedule, size_t l
   return out + "</g>\n";
 }
 
+/// Whether a room, whose name is on the plan, is called so.
+bool is_room(const AssessmentRecord& a, const std::string& name) {
+  return std::any_of(a.rooms.begin(), a.rooms.end(),
+                     [&](const RoomRecord& room) { return room.name == name; });
+}
+
 /// Names of areas and routes; a route's name is at a third of its first leg, so that names of
 /// opposite routes do not overlap.
 std::string place_names(const AssessmentRecord& a, const Schedule& schedule, size_t level,
                         const Sheet& sheet, LabelSpace& space) {
   std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
   for (const AreaRecord& area : a.places.areas) {
-    if (schedule.level_of(area.z_m) != level) continue;
+    if (is_room(a, area.name) || schedule.level_of(area.z_m) != level) continue;
     // In the lower left corner of the outline, away from the luminaires in its middle.
     const glm::dvec2 corner =
         *std::min_element(area.outline.begin(), area.outline.end(),
@@ -148,7 +96,7 @@ std::string place_names(const AssessmentRecord& a, const Schedule& schedule, siz
   }
   for (const RouteRecord& route : a.places.routes) {
     const glm::dvec3 &from = route.path[0], &to = route.path[1];
-    if (schedule.level_of(from.z) != level) continue;
+    if (schedule.level_of(from.z) != level || is_room(a, route.name)) continue;
     const double x0 = sheet.x(from.x), y0 = sheet.y(from.y);
     const double dx = sheet.x(to.x) - x0, dy = sheet.y(to.y) - y0;
     double turn = std::atan2(dy, dx) * 180 / std::numbers::pi;
@@ -175,13 +123,66 @@ std::string place_names(const AssessmentRecord& a, const Schedule& schedule, siz
   return out + "</g>\n";
 }
 
-std::string luminaire_symbol(double x, double y, bool emergency) {
-  const double edge = emergency ? 2.2 : 1.8;
-  return fmt::format(
-      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"{}\" "
-      "stroke-width=\"0.25\"/>",
-      x - edge / 2, y - edge / 2, edge, edge, emergency ? emergency_colour : "#fff",
-      emergency ? emergency_colour : "#777");
+/// Places within a room's box where its name may stand, from the middle outwards.
+std::vector<glm::dvec2> name_places() {
+  constexpr int steps = 12;
+  std::vector<glm::dvec2> out;
+  for (int i = 2; i <= steps - 2; ++i)
+    for (int j = 1; j < steps; ++j) out.push_back(glm::dvec2(i, j) / double{steps});
+  std::stable_sort(out.begin(), out.end(), [](const glm::dvec2& p, const glm::dvec2& q) {
+    return glm::length(p - 0.5) < glm::length(q - 0.5);
+  });
+  return out;
+}
+
+/// Lines of a room's name, and the height of its letters [mm].
+struct RoomName {
+  std::vector<std::string> lines;
+  double size = 2.8;
+
+  double width() const {
+    double out = 0;
+    for (const std::string& line : lines) out = std::max(out, text_width_mm(line, size));
+    return out;
+  }
+  double height() const { return static_cast<double>(lines.size()) * (size + 0.4); }
+  std::string svg(double x, double y) const {
+    std::string out;
+    for (size_t i = 0; i < lines.size(); ++i)
+      out += text_at(
+          x, y - height() / 2 + (static_cast<double>(i) + 0.85) * (size + 0.4), lines[i],
+          i == 0 ? "text-anchor=\"middle\" font-weight=\"bold\"" : "text-anchor=\"middle\"", size);
+    return out;
+  }
+};
+
+/// The name of a room with its area where there is room for it, from the middle outwards; else the
+/// name alone in the middle, in small letters, since every room has its name on the plan.
+std::string room_name(const RoomRecord& room, const Texts& texts, const Sheet& sheet,
+                      LabelSpace& space) {
+  glm::dvec2 low(1e300), high(-1e300);
+  for (const glm::dvec2& p : room.outline) low = glm::min(low, p), high = glm::max(high, p);
+  const std::string area = texts.fixed(room.area_m2, 1) + " m²";
+  const RoomName forms[] = {
+      {{room.name, area}}, {{room.name + ", " + area}, 2.5}, {{room.name}, 2.2}};
+  for (const RoomName& name : forms)
+    for (const glm::dvec2& share : name_places()) {
+      const glm::dvec2 at = low + (high - low) * share;
+      const double x = sheet.x(at.x), y = sheet.y(at.y), half = name.width() / 2;
+      if (x - half < sheet.x(low.x) || x + half > sheet.x(high.x)) continue;
+      if (space.take(x, y, name.width(), name.height())) return name.svg(x, y);
+    }
+  return std::end(forms)[-1].svg(sheet.x((low.x + high.x) / 2), sheet.y((low.y + high.y) / 2));
+}
+
+std::string room_names(const AssessmentRecord& a, const Schedule& schedule, const Texts& texts,
+                       size_t level, const Sheet& sheet, LabelSpace& space) {
+  for (const RouteRecord& route : a.places.routes)
+    if (schedule.level_of(route.path.front().z) == level) reserve_line(route.path, sheet, space);
+  std::string out = "<g class=\"rooms\" fill=\"#333\">\n";
+  for (const RoomRecord& room : a.rooms)
+    if (schedule.level_of(room.z_m) == level) out += room_name(room, texts, sheet, space);
+  return out + "</g>\n";
 }
 
 std::string luminaire_letters(const std::string& text, double x, double y, bool emergency) {
@@ -328,59 +329,6 @@ std::string emphasis(const AssessmentRecord& a, const Schedule& schedule, size_t
   return out;
 }
 
-/// Scale bar in round metres, scale, and north arrow.
-std::string foot(const AssessmentRecord& a, const Sheet& sheet, const Texts& texts) {
-  const double y = sheet.height() + 5;
-  double bar = 1;
-  for (const double metres : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1000.0})
-    if (sheet.mm(metres) <= 50) bar = metres;
-  std::string out = "<g class=\"scale\">\n";
-  for (int i = 0; i < 4; ++i)
-    out += fmt::format(
-        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.3f}\" height=\"1.4\" fill=\"{}\" "
-        "stroke=\"#000\" stroke-width=\"0.2\"/>\n",
-        border_mm + sheet.mm(bar) * i / 4, y, sheet.mm(bar) / 4, i % 2 == 0 ? "#000" : "#fff");
-  out += text_at(border_mm, y + 4.4, "0") +
-         text_at(border_mm + sheet.mm(bar), y + 4.4, texts.number(bar) + " m",
-                 "text-anchor=\"middle\"") +
-         text_at(border_mm + sheet.mm(bar) + 6, y + 1.5, fmt::format("1:{:g}", sheet.scale()));
-  const double turn = a.project.north_deg;
-  out += fmt::format(
-             "<g class=\"north\" transform=\"translate({:.2f} {:.2f}) rotate({:g})\"><circle "
-             "r=\"3.4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"0.25\"/><path d=\"M0 "
-             "-3.4L1.5 2.4L0 1.3L-1.5 2.4Z\"/></g>\n",
-             sheet.width() - border_mm - 4, sheet.height() + 6, turn) +
-         text_at(sheet.width() - border_mm - 9.6, sheet.height() + 7, texts("plan.north"),
-                 "text-anchor=\"middle\" font-weight=\"bold\"", 3);
-  return out + "</g>\n";
-}
-
-Plan finished(const Sheet& sheet, const Legend& legend, const std::string& body) {
-  Plan plan;
-  plan.width_mm = sheet.width();
-  plan.scale = sheet.scale();
-  plan.svg = fmt::format(
-                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.2f} {1:.2f}\" "
-                 "width=\"{0:.2f}mm\" height=\"{1:.2f}mm\" font-family=\"Liberation Sans, Arial, "
-                 "Helvetica, DejaVu Sans, sans-serif\">\n<style>text {{ paint-order: stroke; "
-                 "stroke: #fff; stroke-width: 0.5px; stroke-linejoin: round }}</style>\n"
-                 "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-                 sheet.width(), sheet.height() + sheet.foot()) +
-             body + legend.svg(sheet.width(), sheet.height()) + "</svg>\n";
-  return plan;
-}
-
-/// Line widths differ as well, for people who cannot distinguish these colours.
-std::string isolux_colour(double lux) {
-  const LightColour c = colour_of_illuminance(lux);
-  return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
-}
-
-std::string isolux_style(double lux) {
-  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}", isolux_colour(lux),
-                     lux == 1 ? 0.6 : 0.35, lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "");
-}
-
 /// A line with its value about every 36 mm, where space is free.
 std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& texts,
                         LabelSpace& space) {
@@ -420,10 +368,6 @@ std::string grid_values(const PlanLevel& level, const Sheet& sheet, const Texts&
     out += text_at(x, y + 0.6, texts.number(lux, 2), "text-anchor=\"middle\"", 1.6);
   }
   return out + "</g>\n";
-}
-
-std::string legend_line(double width, const std::string& style) {
-  return fmt::format("<path d=\"M0 0h{}\" {}/>", width, style);
 }
 
 /// Legend entries for luminaires of a level, with or without letters and heights.
@@ -580,11 +524,12 @@ Plan Plans::installation(size_t number) const {
   reserve_signs(a_, schedule_, number, sheet, space);
   // Before route names, which have more free positions.
   const std::string symbols = luminaires(a_, schedule_, texts_, number, sheet, &space);
+  const std::string rooms = room_names(a_, schedule_, texts_, number, sheet, space);
   return finished(
       sheet, legend,
       backdrops(a_, number, sheet) + building(level, sheet) + places(a_, schedule_, number, sheet) +
           emphasis(a_, schedule_, number, sheet) + symbols + signs(a_, schedule_, number, sheet) +
-          place_names(a_, schedule_, number, sheet, space) + foot(a_, sheet, texts_));
+          rooms + place_names(a_, schedule_, number, sheet, space) + foot(a_, sheet, texts_));
 }
 
 Plan Plans::isolux(size_t number, bool values) const {

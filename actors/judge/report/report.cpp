@@ -25,10 +25,6 @@ std::string bytes_text(const std::vector<std::byte>& bytes) {
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-std::string named(const fs::path& folder, const ReportOptions& options) {
-  return options.named.empty() ? folder.string() : options.named;
-}
-
 Result<void> make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -101,8 +97,7 @@ Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
   const fs::path pdf = folder / "report.pdf";
   const fs::path page = folder / fmt::format(".report.{}.html", ::getpid());
   const auto print = [&](const std::map<std::string, int>& pages) -> Result<void> {
-    const auto written = write_file_atomically(
-        page, report_html(a, pictures, named(folder, options), options, pages));
+    const auto written = write_file_atomically(page, report_html(a, pictures, options, pages));
     return written ? print_pdf(page, pdf) : written;
   };
   Result<void> done = print({});
@@ -118,14 +113,13 @@ Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
 }  // namespace
 
 std::string report_html(const AssessmentRecord& a, const std::vector<ReportPicture>& pictures,
-                        const std::string& folder, const ReportOptions& options,
-                        const std::map<std::string, int>& pages) {
+                        const ReportOptions& options, const std::map<std::string, int>& pages) {
   const Schedule schedule(a);
   const Texts texts(options.language);
   // Margins: 15 mm left and right, 20 mm above and below; on a landscape sheet they are turned.
   const double width = (options.letter ? 215.9 : 210) - 30;
   const double height = (options.letter ? 279.4 : 297) - 30;
-  return report_page({a, schedule, texts, pictures, folder, width, height, options.grid_values},
+  return report_page({a, schedule, texts, pictures, width, height, options.grid_values},
                      {options.letter, pages});
 }
 
@@ -138,8 +132,7 @@ Result<void> write_report(const fs::path& folder, const AssessmentRecord& a,
     return ok.problem();
   if (auto ok = write_guidance(folder / "plans", a, texts); !ok) return ok.problem();
   if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok) return ok.problem();
-  if (auto ok = write_file_atomically(folder / "report.html",
-                                      report_html(a, pictures, named(folder, options), options));
+  if (auto ok = write_file_atomically(folder / "report.html", report_html(a, pictures, options));
       !ok)
     return ok;
   return options.pdf ? print_report(folder, a, pictures, options) : Result<void>{};

@@ -14,13 +14,12 @@ struct ReportOptions {
   bool letter = false;  // paper size Letter instead of A4
   bool grid_values = false;
   bool pdf = false;
-  std::string named;  // folder in commands on the page; "": its path
 };
 
 /// The HTML page only.
 std::string report_html(const AssessmentRecord& assessment,
-                        const std::vector<ReportPicture>& pictures, const std::string& folder,
-                        const ReportOptions& options, const std::map<std::string, int>& pages = {});
+                        const std::vector<ReportPicture>& pictures, const ReportOptions& options,
+                        const std::map<std::string, int>& pages = {});
 
 /// Writes all files of a report. Errors: a file that cannot be written; with `pdf` also a missing
 /// Chromium (all other files are written).

@@ -29,14 +29,16 @@ FaceColourRecord colour_of(const SignRecord& sign, const std::string& name) {
 CsvTable luminaires_csv(const AssessmentRecord& a, const Schedule& schedule) {
   CsvTable table({"name", "type", "product", "file", "operation", "circuit", "x [m]", "y [m]",
                   "z [m]", "height above floor [m]", "mains flux", "emergency flux", "flux unit",
-                  "maintenance factor [1]", "end of duration factor [1]"});
+                  "maintenance factor [1]", "end of duration factor [1]", "maker", "article",
+                  "battery"});
   for (size_t i = 0; i < a.luminaires.size(); ++i) {
     const LuminaireRecord& one = a.luminaires[i];
     const glm::dvec3& p = one.position;
     table.row(one.name, schedule.type_of(i).letter, one.product, one.file, one.operation,
               one.circuit, p.x, p.y, p.z, schedule.above_floor(one), one.mains_flux.value,
               one.emergency_flux.value, one.mains_flux.unit, one.maintenance_factor,
-              one.end_of_duration_factor);
+              one.end_of_duration_factor, a.sheets[one.sheet].maker, a.sheets[one.sheet].article,
+              a.sheets[one.sheet].battery);
   }
   return table;
 }
@@ -112,12 +114,16 @@ CsvTable places_csv(const AssessmentRecord& a) {
 }
 
 CsvTable points_csv(const AssessmentRecord& a, const Schedule& schedule) {
-  CsvTable table({"level", "floor [m]", "x [m]", "y [m]", "z [m]", "illuminance [lx]"});
-  for (size_t i = 0; i < a.plan.levels.size(); ++i)
-    for (const PlanPoint& p : a.plan.levels[i].points) {
-      table.row(static_cast<int64_t>(i + 1), schedule.floor(i), p.place.x, p.place.y, p.place.z,
-                p.lux);
-    }
+  CsvTable table(
+      {"surface", "points", "level", "floor [m]", "x [m]", "y [m]", "z [m]", "illuminance [lx]"});
+  const Texts t = english();
+  for (const SurfaceRecord& surface : a.surfaces)
+    for (const SurfaceGridRecord& grid : surface.grids)
+      for (const PlanPoint& p : grid.points) {
+        const size_t level = schedule.level_of(p.place.z);
+        table.row(t.subject(surface.subject), grid.kind, static_cast<int64_t>(level + 1),
+                  schedule.floor(level), p.place.x, p.place.y, p.place.z, p.lux);
+      }
   return table;
 }
 

@@ -79,6 +79,16 @@ Sheet::Sheet(const AssessmentRecord& assessment, const Schedule& schedule, size_
              const PlanSize& size, const Legend& legend) {
   take_level(assessment, schedule, level);
   if (low_.x > high_.x) low_ = glm::dvec2(0), high_ = glm::dvec2(1);
+  fit(size, legend);
+}
+
+Sheet::Sheet(const glm::dvec2& low, const glm::dvec2& high, const PlanSize& size,
+             const Legend& legend)
+    : low_(low), high_(high) {
+  fit(size, legend);
+}
+
+void Sheet::fit(const PlanSize& size, const Legend& legend) {
   // A larger legend makes the drawing smaller, and a narrower drawing may need more legend rows.
   foot_ = legend.foot_mm(size.width_mm);
   for (int tries = 0; tries < 8; ++tries) {

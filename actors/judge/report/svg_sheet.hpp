@@ -47,8 +47,14 @@ class Sheet {
  public:
   Sheet(const AssessmentRecord& assessment, const Schedule& schedule, size_t level,
         const PlanSize& size, const Legend& legend);
+  /// Of a part of a level.
+  Sheet(const glm::dvec2& low, const glm::dvec2& high, const PlanSize& size, const Legend& legend);
   double x(double metres) const { return left_ + (metres - low_.x) * unit_; }
   double y(double metres) const { return border_mm + (high_.y - metres) * unit_; }
+  /// The place at a point of the paper [m].
+  glm::dvec2 place(double x, double y) const {
+    return {low_.x + (x - left_) / unit_, high_.y - (y - border_mm) / unit_};
+  }
   double mm(double metres) const { return metres * unit_; }
   double width() const { return width_; }
   /// Heights of the drawing and of the foot below it.
@@ -60,6 +66,7 @@ class Sheet {
   void take(const glm::dvec2& place);
   void take_level(const AssessmentRecord& assessment, const Schedule& schedule, size_t level);
   void fit(const PlanSize& size);
+  void fit(const PlanSize& size, const Legend& legend);
 
   glm::dvec2 low_{1e300}, high_{-1e300};
   double unit_ = 1, width_ = 0, height_ = 0, left_ = 0, foot_ = 0;

@@ -226,6 +226,11 @@ Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const GldfChoice&
   out.rated_lm = rated->flux_lm;
   out.photometry = std::move(rated->photometry);
   out.photometry.manufacturer = product.manufacturer;
+  out.photometry.article = product.number;
+  if (const auto& housing = variant.value()->housing) {
+    out.photometry.housing_m = housing->size_m;
+    out.photometry.housing_round = housing->round;
+  }
   std::string& name = out.photometry.luminaire;
   name = product.name.empty() ? name : product.name;
   if (!product.number.empty() && name.find(product.number) == std::string::npos)

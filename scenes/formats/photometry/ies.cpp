@@ -298,6 +298,7 @@ class IesReader {
       *open += value;
     }
     out_.manufacturer = words["MANUFAC"];
+    out_.article = words["LUMCAT"];
     for (const char* key : {"LUMINAIRE", "LUMCAT", "TEST"}) {
       if (out_.luminaire.empty()) out_.luminaire = words[key];
     }

@@ -104,7 +104,7 @@ class LdtReader {
     gamma_step_ = number("the distance between intensities (Dg)", 0, 180, Blank::is_zero);
     text("the report number");
     out_.luminaire = text("the luminaire's name");
-    text("the luminaire's number");
+    out_.article = text("the luminaire's number");
     text("the file name");
     text("the date");
   }
@@ -154,6 +154,7 @@ class LdtReader {
     const double height = metres("the height of the luminaire");
     // Width 0 marks a round luminaire whose diameter is its length.
     out_.housing_m = {width > 0 ? width : length, length, height};
+    out_.housing_round = width == 0 && length > 0;
     const double lit_length = metres("the length of the luminous area");
     const double lit_width = metres("the width of the luminous area");
     double lit_height = metres("the height of the luminous area at C0");

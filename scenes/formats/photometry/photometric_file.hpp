@@ -64,6 +64,7 @@ struct PhotometricFile {
   std::string format;  // "EULUMDAT", "IES LM-63-2002", ...
   std::string luminaire;
   std::string manufacturer;
+  std::string article;  // number of the luminaire in the catalogue; "" where the file states none
 
   std::shared_ptr<const PhotometricWeb> web;  // [cd], at the flux the file states
   double flux_lm = 0;                         // integral of the web
@@ -82,6 +83,7 @@ struct PhotometricFile {
 
   LuminousOpening opening;
   glm::dvec3 housing_m{0};  // extents along X, Y, Z; 0 where the file states none
+  bool housing_round = false;  // an upright cylinder
 
   std::vector<std::filesystem::path> files_read;  // this file and a TILT file
   std::vector<Problem> warnings;

@@ -1,8 +1,10 @@
 // Reads routes, areas, points of emphasis, and assumptions about people.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <span>
 
+#include "runtime/core/output_text.hpp"
 #include "runtime/core/printable.hpp"
 #include "scenes/emergency/rule_sets.hpp"
 #include "scenes/emergency/sight.hpp"
@@ -30,6 +32,42 @@ AssessedArea read_area(KeyReader& keys, const char* kind) {
   else
     area.outline = std::move(checked).value();
   return area;
+}
+
+/// Floors nearer than this to each other are of one storey [m].
+constexpr double one_storey_m = 1;
+/// Rooms may overlap by this much, by rounding and by the thickness of a wall between them [m2].
+constexpr double shared_m2 = 0.5;
+/// Every room is compared with every other: 5000 take a tenth of a second.
+constexpr size_t max_rooms = 5000;
+
+struct OutlineBox {
+  glm::dvec2 low{1e300}, high{-1e300};
+};
+
+OutlineBox box_of(const std::vector<glm::dvec2>& outline) {
+  OutlineBox out;
+  for (const glm::dvec2& p : outline) {
+    out.low = glm::min(out.low, p);
+    out.high = glm::max(out.high, p);
+  }
+  return out;
+}
+
+/// The area that two outlines have in common, by a grid of points over where their boxes meet.
+double overlap_m2(const std::vector<glm::dvec2>& a, const OutlineBox& box_a,
+                  const std::vector<glm::dvec2>& b, const OutlineBox& box_b) {
+  constexpr int points = 64;  // along each side
+  const glm::dvec2 low = glm::max(box_a.low, box_b.low);
+  const glm::dvec2 size = glm::min(box_a.high, box_b.high) - low;
+  if (!(size.x > 0 && size.y > 0) || size.x * size.y <= shared_m2) return 0;
+  int both = 0;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      const glm::dvec2 p = low + size * (glm::dvec2(i, j) + 0.5) / double{points};
+      both += is_within(a, p) && is_within(b, p);
+    }
+  return size.x * size.y * both / (points * points);
 }
 
 /// Reports names that are not valid, with their line; whether they match is checked when all files
@@ -128,6 +166,29 @@ void read_task_area(const toml::Table& table, SceneReading& reading) {
   AssessedArea area = read_area(keys, "task_area");
   area.mains_lx = keys.number("mains_lx");
   reading.scene.task_areas.push_back(std::move(area));
+}
+
+void read_room(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"room"}, reading);
+  reading.scene.rooms.push_back(read_area(keys, "room"));
+}
+
+void check_rooms(SceneReading& reading) {
+  const auto& rooms = reading.scene.rooms;
+  if (rooms.size() > max_rooms)
+    return reading.problem(rooms[max_rooms].place,
+                           "a scene may have " + std::to_string(max_rooms) + " rooms");
+  std::vector<OutlineBox> boxes;
+  for (const AssessedArea& room : rooms) boxes.push_back(box_of(room.outline));
+  for (size_t i = 0; i < rooms.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      if (std::abs(rooms[i].z_m - rooms[j].z_m) >= one_storey_m) continue;
+      const double shared = overlap_m2(rooms[i].outline, boxes[i], rooms[j].outline, boxes[j]);
+      if (shared > shared_m2)
+        reading.problem(rooms[i].place, "room '" + rooms[i].name + "' overlaps room '" +
+                                            rooms[j].name + "' by " + readable_number(shared, 2) +
+                                            " m2: a place belongs to one room, mend an outline");
+    }
 }
 
 void read_emphasis(const toml::Table& table, SceneReading& reading) {

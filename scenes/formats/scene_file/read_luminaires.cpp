@@ -133,6 +133,14 @@ void read_body(KeyReader& keys, Emitter& e) {
   }
 }
 
+/// What the scene says of the product, before what its file says.
+void read_product(KeyReader& keys, ProductFacts& facts) {
+  for (const auto& [key, fact] :
+       {std::pair{"maker", &facts.maker}, std::pair{"article", &facts.article},
+        std::pair{"battery", &facts.battery}})
+    if (auto said = keys.maybe_text(key)) *fact = std::move(*said);
+}
+
 /// The emitting shape of a file's luminous opening: its lower face. Horizontal tubes and boxes
 /// become their rectangle, vertical cylinders their disc; a line is 1 mm wide.
 void take_opening(const LuminousOpening& opening, Emitter& e) {
@@ -329,6 +337,8 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
     e.web = file.web;
     e.file = *keys.value("file")->as_text();
     e.product = file.luminaire;
+    e.facts = {file.manufacturer, file.article,   "",
+               file.input_watts,  file.housing_m, file.housing_round};
     e.opening_m = file.opening.size_m;
     rated = file.web->flux_lm();
     if (!point) take_opening(file.opening, e);
@@ -388,6 +398,7 @@ void read_luminaire(const toml::Table& stated, SceneReading& reading) {
   e.name = read_name(keys, "luminaire or emitter");
   e.frame = read_aim(keys);
   read_photometric_light(keys, e);
+  read_product(keys, e.facts);
   add_emitter(keys, e, read_repeat(keys));
 }
 

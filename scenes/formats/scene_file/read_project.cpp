@@ -42,4 +42,11 @@ void read_project(const toml::Table& table, SceneReading& reading) {
     p.logo = path->string();
 }
 
+void check_project(SceneReading& reading) {
+  const ProjectSettings& p = reading.scene.project;
+  if (!p.place.file.empty() && p.name.empty())
+    reading.warning(p.place,
+                    "[project] has no 'name': reports and designs carry the title of the scene");
+}
+
 }  // namespace luxodus

@@ -276,8 +276,11 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"open_area", read_open_area},
       {"task_area", read_task_area},
       {"emphasis", read_emphasis},
+      {"room", read_room},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
+  check_rooms(reading);
+  check_project(reading);
   for (const auto& route : reading.routes_named) reading.require("route", route.name, route.place);
   resolve_bodies(reading);
   // Types of a design may use circuits of their own, which scenarios name.

@@ -27,11 +27,16 @@ void read_observer(const toml::Table& table, SceneReading& reading);
 void read_camera(const toml::Table& table, SceneReading& reading);
 void read_assessment(const toml::Table& table, SceneReading& reading);
 void read_project(const toml::Table& table, SceneReading& reading);
+/// Warns of a project without a name.
+void check_project(SceneReading& reading);
 void read_backdrop(const toml::Table& table, SceneReading& reading);
 void read_route(const toml::Table& table, SceneReading& reading);
 void read_open_area(const toml::Table& table, SceneReading& reading);
 void read_task_area(const toml::Table& table, SceneReading& reading);
 void read_emphasis(const toml::Table& table, SceneReading& reading);
+void read_room(const toml::Table& table, SceneReading& reading);
+/// Reports rooms of one storey that overlap.
+void check_rooms(SceneReading& reading);
 /// Adds the keys of this table to `design`.
 void read_design(const toml::Table& table, SceneReading& reading, DesignSettings& design);
 /// Gives the scene its design, with default types where none are stated.

@@ -56,6 +56,15 @@ std::vector<TableSpec> assessment_schema() {
            {"mains_lx", "number", "lx", "required", "(0, 1e6]",
             "illuminance that the task needs, maintained in mains operation"},
        }},
+      {"room",
+       "`[[room]]`: a room, by whose name reports list what it holds",
+       {
+           {"name", "name", "", "required", "", "name of the room"},
+           {"outline", "corners", "m", "required", "[-1e7, 1e7]",
+            "corners [x, y] in order; rooms of one storey do not overlap"},
+           {"z", "number", "m", "0", "[-1e7, 1e7]", "height of the floor"},
+           ifc_guid_key(),
+       }},
       {"emphasis",
        "`[[emphasis]]`: a place that an emergency luminaire must be near to",
        {

@@ -47,6 +47,7 @@ TableSpec scene_keys() {
           {"open_area", "tables", "", "", "", "floors without a defined route"},
           {"task_area", "tables", "", "", "", "places of high-risk work"},
           {"emphasis", "tables", "", "", "", "what emergency luminaires must be near to"},
+          {"room", "tables", "", "", "", "names of rooms, for lists and plans"},
           {"design", "table", "", "", "", "where emergency luminaires may be placed"},
           {"time", "table", "", "", "",
            "states that are assessed one after another, and the clock"},

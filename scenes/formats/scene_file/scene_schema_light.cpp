@@ -65,6 +65,15 @@ std::vector<KeySpec> operation_keys() {
   };
 }
 
+std::vector<KeySpec> product_keys() {
+  return {
+      {"maker", "text", "", "", "", "maker, as schedules name it; that of the file unless said"},
+      {"article", "text", "", "", "",
+       "article number, as schedules name it; that of the file unless said"},
+      {"battery", "text", "", "", "", "its battery or central supply, as schedules name it"},
+  };
+}
+
 namespace {
 
 using Keys = std::vector<KeySpec>;
@@ -94,16 +103,16 @@ std::vector<TableSpec> luminaire_keys() {
                           ifc_guid_key()},
                          photometric_file_keys("required")),
                   aim_keys()),
-           joined(operation_keys(),
+           joined(joined(operation_keys(), product_keys()),
                   {repeat_key(),
                    {"body_material", "text", "", "", "",
                     "material of its body; without it returning light passes"}}))},
       {"luminaire_type", "`[[luminaire_type]]`: what several luminaires have in common",
        joined(joined({{"name", "name", "", "required", "", "name of the type"}},
                      photometric_file_keys("")),
-              joined(operation_keys(), {{"body_material", "text", "", "", "",
-                                         "material of its body; without it returning light "
-                                         "passes"}}))},
+              joined(joined(operation_keys(), product_keys()),
+                     {{"body_material", "text", "", "", "",
+                       "material of its body; without it returning light passes"}}))},
       {"emitter", "`[[emitter]]`: a light source of simple shape",
        joined(
            joined(

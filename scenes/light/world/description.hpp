@@ -90,6 +90,14 @@ enum class EmergencyFluxIs { unstated, rated, initial };
 /// One emitter, analytic or a luminaire of a photometric file. Surfaces emit along local -Z (the
 /// luminaire frame: -Z is down); rectangle and disc lie in the local xy plane; a tube's axis is
 /// local x.
+/// What files and the scene say of a luminaire as a product, for schedules: it lights nothing.
+struct ProductFacts {
+  std::string maker, article, battery;  // "" where not stated
+  double watts = 0;                     // input on mains [W]; 0 where not stated
+  glm::dvec3 body_m{0};                 // extents along local x, y, z; 0 where not stated
+  bool body_round = false;              // an upright cylinder
+};
+
 struct Emitter {
   std::string name;
   SourcePlace place;
@@ -122,6 +130,7 @@ struct Emitter {
   bool maintained = false;  // an emergency luminaire that is also lit in mains operation
   std::string file;         // the photometric file, as the scene names it; "" if there is none
   std::string product;      // the luminaire's name in that file
+  ProductFacts facts;       // none in a pack
   std::string ifc_guid;     // GlobalId in the model it came from; "" if none
   bool turned_in_file =
       false;                // its container turns it within the luminaire; the frame includes that
@@ -486,6 +495,7 @@ struct SceneDescription {
   std::vector<AssessedArea> open_areas;
   std::vector<AssessedArea> task_areas;
   std::vector<EmphasisPoint> emphasis;
+  std::vector<AssessedArea> rooms;  // named floors, for lists and plans; none in a pack
   AssessmentSettings assessment;
   ProjectSettings project;
   std::vector<Backdrop> backdrops;  // none in a pack

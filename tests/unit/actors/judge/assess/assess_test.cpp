@@ -72,7 +72,7 @@ TEST_CASE("people on routes and in areas represent their whole length and area",
   CHECK(metres == Approx(10));
   CHECK(square_metres == Approx(24));
   const auto scene = described_text(room + hall);
-  const std::string page = report_html(record_of(*scene, a, "1"), {}, "out", {});
+  const std::string page = report_html(record_of(*scene, a, "1"), {}, {});
   CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // everything is legible
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("writing an assessment removes tables of an earlier one that it does n
 TEST_CASE("a report counts checks, and never says that a building complies", "[assess]") {
   AssessOptions options;
   options.rounds = 1;
-  const std::string page = report_html(recorded(room, options), {{"view", "png"}}, "out", {});
+  const std::string page = report_html(recorded(room, options), {{"view", "png"}}, {});
   CHECK(page.find(" not assessed") != std::string::npos);
   CHECK(page.find("complies with EN") == std::string::npos);
   CHECK(page.find("http-equiv") == std::string::npos);

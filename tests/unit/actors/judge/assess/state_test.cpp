@@ -196,7 +196,7 @@ TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
   CHECK(has(words, "emergency, 5 s after the failure of the mains"));
   CHECK(has(words, "1 of 2 lit: lamp"));
   CHECK(has(words, "pupils and retinas have not yet followed"));
-  const std::string page = report_html(record, {}, "out", {});
+  const std::string page = report_html(record, {}, {});
   CHECK(page.find("1 of 2 lit") < page.find("<h2 "));  // beside the verdict
   CHECK(page.find(record.verdict.words) < page.find("<h2 "));
   CHECK(has(page, "pupils and retinas have not yet followed"));

@@ -123,6 +123,17 @@ AssessmentRecord full() {
   lamp.ifc_guid = "L1";
   lamp.opening_m = {0.1, 0.2, 0.3};
   lamp.onset = {{0, 0}, {5, 1}};
+  a.sheets = {{.maker = "Maker",
+               .article = "LX-1",
+               .battery = "NiMH",
+               .watts = 4,
+               .duration_h = 1,
+               .body_m = {{0.1, 0.2, 0.05}},
+               .body_round = true,
+               .curve_step_deg = 180,
+               .c0_c180 = {1, 2, 1},
+               .c90_c270 = {1, 2, 1},
+               .spacing = {{3, 1, 0.56, RowSpacingRecord{4, 9}, {}}}}};
   SignRecord& exit = a.signs.emplace_back();
   exit.name = "exit";
   exit.ifc_guid = "S1";
@@ -131,6 +142,12 @@ AssessmentRecord full() {
   exit.colours = {{"red", 500, 400}, {"white", {}, {}}};
   a.places.routes = {{"way", {{0, 0, 0}, {4, 0, 0}}, 2}};
   a.places.areas = {{"hall", true, {{0, 0}, {4, 0}, {4, 4}}, 0, "R1", 500}};
+  a.rooms = {{"hall", {{0, 0}, {4, 0}, {4, 4}}, 0, 8, 1, 2, 3, "R1"}};
+  a.surfaces = {
+      {.subject = {SubjectKind::route, "way"},
+       .grids = {{"centre", {{{1, 1, 0.02}, 0.75}}, 0.75, 0.75, 0.75, {1, 1, 0.02}, {1, 1, 0.02}}},
+       .in_bodies = 2,
+       .map = {}}};
   a.places.emphasis = {{"door", "exit door", {4, 0, 0}, "D1"}};
   a.materials = {{"grey", "glossy", 3, 0.5, 0.1, 0.2, 1.5, true}};
   a.media = {{"smoke", "layered", {{0.2, 633, 1, 0.5, 0.6, 1, 2}}, 1000}};
@@ -172,9 +189,12 @@ TEST_CASE("keys, forms and their order in assessment.json stay as they are", "[j
   for (const auto& [key, value] : json.items()) keys += (keys.empty() ? "" : " ") + key;
   CHECK(keys ==
         "format version scene state verdict not_assessed people method counts sight_counts checks "
-        "sights sweep thresholds over_time warnings project scenario luminaires signs places "
-        "materials media "
-        "cameras plan");
+        "sights sweep thresholds over_time warnings project scenario luminaires sheets signs "
+        "places rooms surfaces materials media cameras plan");
+  CHECK(text_at(json, "sheets/0/spacing/0") ==
+        R"({"height_m":3.0,"level_lx":1.0,"factor":0.56,)"
+        R"("c0_along":{"to_wall_m":4.0,"between_m":9.0},"c0_across":null})");
+  CHECK(text_at(json, "surfaces/0/grids/0/least") == R"({"value":0.75,"unit":"lx"})");
   CHECK(text_at(json, "state/luminaires") == R"({"lit":1,"of":2,"lit_names":["lamp"]})");
   CHECK(text_at(json, "state/smoke/extinction") ==
         R"({"min":0.1,"max":0.2,"unit":"1/m","wavelength_nm":633.0})");
@@ -252,11 +272,16 @@ TEST_CASE("an assessment.json that is of another format or inconsistent is refus
     return read ? std::string() : read.problem().what;
   };
   CHECK(with("", "format", "luxodus assessment 2") ==
-        "its \"format\" is not \"luxodus assessment 3\"");
+        "its \"format\" is not \"luxodus assessment 4\"");
   CHECK(with("state/remarks/0", "id", "of_nobody").find("state.remarks[0]: ") == 0);
   CHECK(with("checks/0", "verdict", "maybe") == "checks[0].verdict is \"maybe\": unknown");
   CHECK(with("over_time/routes/0", "guided", Json::array({"gg", "gx"})) ==
         "over_time.routes[0].guided[1] has other letters than g, u and n");
+  CHECK(with("luminaires/0", "sheet", 1) == "luminaires: one has no sheet");
+  CHECK(with("sheets/0", "c0_c180", Json::array({1, 2})) == "sheets: a curve is not whole");
+  CHECK(with("surfaces/0", "grids", Json::array()) == "surfaces: one has no points");
+  CHECK(with("rooms/0", "outline", Json::array()) ==
+        "rooms: an outline has less than three corners");
   CHECK(with("plan/levels/0/map", "rows", 2) ==
         "plan.levels: a map has not as many values as it has places");
   CHECK(with("plan/levels/0/map", "spacing", 0) == "plan.levels: a map has no spacing");

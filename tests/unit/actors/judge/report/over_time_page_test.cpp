@@ -55,7 +55,7 @@ TEST_CASE("a report says and draws until when routes are guided, in each languag
   for (const Language language : {Language::en, Language::de, Language::fr}) {
     ReportOptions options;
     options.language = language;
-    const std::string page = report_html(a, {}, "out/x", options);
+    const std::string page = report_html(a, {}, options);
     CHECK(holds_text(page, "id=\"over-time\""));
     CHECK(holds_text(page, until[static_cast<size_t>(language)]));
     CHECK(holds_text(page, "ASET/RSET"));
@@ -64,7 +64,7 @@ TEST_CASE("a report says and draws until when routes are guided, in each languag
   }
   AssessmentRecord silent = a;
   silent.over_time.reset();
-  CHECK_FALSE(holds_text(report_html(silent, {}, "out/x", {}), "id=\"over-time\""));
+  CHECK_FALSE(holds_text(report_html(silent, {}, {}), "id=\"over-time\""));
   const std::string map =
       guidance_map(*a.over_time, a.over_time->routes[0], Texts(Language::en), 180);
   GError* error = nullptr;

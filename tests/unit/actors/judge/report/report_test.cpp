@@ -58,7 +58,7 @@ const Json& assessed_json() {
 std::string page_in(Language language) {
   ReportOptions options;
   options.language = language;
-  return report_html(room_record(), {}, "out/x", options);
+  return report_html(room_record(), {}, options);
 }
 
 bool has(const std::string& text, const std::string& piece) {
@@ -177,7 +177,7 @@ TEST_CASE("signs are listed with their words, and paths break after folders", "[
   AssessmentRecord drawn = room_record();
   drawn.signs[0].text = "";
   drawn.signs[0].file = "../zeichen/Ausgänge & mehr.svg";
-  CHECK(has(report_html(drawn, {}, "x", {}), "../<wbr>zeichen/<wbr>Ausgänge &amp; mehr.svg"));
+  CHECK(has(report_html(drawn, {}, {}), "../<wbr>zeichen/<wbr>Ausgänge &amp; mehr.svg"));
 }
 
 TEST_CASE("verdicts have words in each language", "[report]") {
@@ -252,14 +252,24 @@ TEST_CASE(
 TEST_CASE("the sections of a report run from the verdict to the method", "[report]") {
   const std::string page = page_in(Language::en);
   size_t before = 0;
-  for (const char* id : {"verdict", "state", "plans", "schedules", "places", "sights", "thumb",
-                         "inputs", "clauses", "not-assessed", "method"}) {
+  for (const char* id :
+       {"verdict", "plans", "rooms", "luminaires", "schedules", "surfaces", "places", "sights",
+        "thumb", "state", "inputs", "not-assessed", "method", "appendix-clauses"}) {
     const size_t at = page.find("<h2 id=\"" + std::string(id) + "\"");
     INFO(id);
     REQUIRE(at != std::string::npos);
     CHECK(at > before);
     before = at;
   }
+  // Numbers and letters have no holes, whatever is left out: here the guidance over time.
+  CHECK_FALSE(has(page, "<h2 id=\"over-time\""));
+  const std::regex number("<h2[^>]*><span class=\"n\">([0-9]+)</span>");
+  int expected = 1;
+  for (std::sregex_iterator at(page.begin(), page.end(), number), end; at != end; ++at)
+    CHECK((*at)[1] == std::to_string(expected++));
+  CHECK(expected == 14);
+  for (const char* letter : {"Appendix A", "Appendix B", "Appendix C"})
+    CHECK(has(page, "<span class=\"a\">" + std::string(letter) + "</span>"));
   const AssessmentRecord& a = room_record();
   CHECK(page.find(a.verdict.words) < page.find("<h2 "));
   CHECK(has(page, "Hall &lt;of&gt; tests"));
@@ -267,8 +277,6 @@ TEST_CASE("the sections of a report run from the verdict to the method", "[repor
   CHECK(has(page, a.scene.content_hash));
   CHECK(has(page, "Luxodus 1.2.3"));
   for (const Check& check : a.checks) CHECK(has(page, escaped(check.rule.edition)));
-  // Without pictures the page names the command that makes them.
-  CHECK((has(page, "luxodus run") || has(page, "[[camera]]")));
 }
 
 TEST_CASE("verdicts have a shape and a word besides their colour", "[report]") {
@@ -318,7 +326,7 @@ TEST_CASE("a missing key is reported by name, and no report crashes without it",
       ++faults;
       CHECK(has(read.problem().what, key));
     } else {
-      CHECK(has(report_html(read.value(), {}, "x", {}), "</html>"));
+      CHECK(has(report_html(read.value(), {}, {}), "</html>"));
     }
   }
   CHECK(faults > 60);
@@ -524,7 +532,7 @@ TEST_CASE("a report includes only pictures of its own scene and scenario", "[rep
   folder.write("run/views/south.png", picture("failed"));
   folder.write("run/views/south_human.png", picture("failed"));
   folder.write("run/views/south_luminance.png", picture("failed"));
-  const std::string page = report_html(a, pictures_in(folder / ""), "x", {});
+  const std::string page = report_html(a, pictures_in(folder / ""), {});
   const Texts en(Language::en);
   const auto images = [](const std::string& text) {
     size_t count = 0;
@@ -537,7 +545,7 @@ TEST_CASE("a report includes only pictures of its own scene and scenario", "[rep
         page.find("Blick zum Ausgang, Süd: " + std::string(en("view.luminance"))));
   CHECK_FALSE(has(page, en("view.plain")));
   folder.write("run/views/south_human.png", picture("mains"));
-  const std::string mixed = report_html(a, pictures_in(folder / ""), "x", {});
+  const std::string mixed = report_html(a, pictures_in(folder / ""), {});
   CHECK(images(mixed) == 1);
   CHECK(has(mixed, en.say("sights.other_pictures", 1)));
 }
@@ -557,13 +565,11 @@ TEST_CASE("texts in pictures are read, and damaged pictures give none", "[report
   CHECK_FALSE(png_text(forged, "View"));
 }
 
-TEST_CASE("for a scene without cameras a report suggests cameras that show the worst views",
-          "[report]") {
-  AssessmentRecord a = room_record();
-  a.sights[0].verdict = SightVerdict::invisible;
-  const std::string page = report_html(a, {}, "x", {});
-  CHECK(has(page, "[[camera]]\nname = &quot;exit&quot;\neye = ["));
-  CHECK(has(page, "target = [11.95, 0, 2.2]"));
+TEST_CASE("a report without pictures says so, and asks its reader to type nothing", "[report]") {
+  const std::string page = page_in(Language::en);
+  CHECK(has(page, Texts(Language::en)("sights.no_pictures")));
+  CHECK_FALSE(has(page, "luxodus run"));
+  CHECK_FALSE(has(page, "[[camera]]"));
 }
 
 TEST_CASE("labels of luminaires in one place do not overlap", "[report]") {
@@ -617,8 +623,10 @@ TEST_CASE("schedules have units in their headers and a place in every row", "[re
   CHECK(has(signs_csv(a, schedule).text(), "1,exit,"));
   CHECK(has(signs_csv(a, schedule).text(), ",11.95,0,2.2,2.2,-1,0,0,0.4,0.2,"));
   const std::string points = points_csv(a, schedule).text();
+  size_t of_charts = 0;
+  for (const SurfaceGridRecord& grid : a.surfaces.at(0).grids) of_charts += grid.points.size();
   CHECK(std::count(points.begin(), points.end(), '\n') ==
-        static_cast<std::ptrdiff_t>(a.plan.levels[0].points.size()) + 1);
+        static_cast<std::ptrdiff_t>(of_charts) + 1);
   CHECK(has(points, "illuminance [lx]"));
   CHECK(has(materials_csv(a, schedule).text(), "6.000 0.000 2.500"));
   CHECK(has(places_csv(a).text(), "worst x [m],worst y [m],worst z [m]"));
@@ -671,7 +679,8 @@ TEST_CASE("a printed report contains its verdict, its footers and the page numbe
     CHECK(has(pages[i], "T-17"));
   }
   std::smatch found;
-  REQUIRE(std::regex_search(pages[0], found, std::regex("Schedules +([0-9]+)")));
+  std::string front = pages[0] + pages[1];
+  REQUIRE(std::regex_search(front, found, std::regex("Signs and bill of materials +([0-9]+)")));
   CHECK(has(pages.at(static_cast<size_t>(std::stoi(found[1])) - 1), "Bill of materials"));
   REQUIRE(runs("pdftoppm -r 30 -png '" + root + "report.pdf' '" + root + "page'"));
   size_t drawn = 0;

@@ -17,7 +17,7 @@ std::string words_of_page(const AssessmentRecord& record, Language language) {
   options.language = language;
   std::string out;
   bool in_tag = false;
-  for (const char c : report_html(record, {}, "out/x", options)) {
+  for (const char c : report_html(record, {}, options)) {
     in_tag = c == '<' || (in_tag && c != '>');
     const bool blank = in_tag || c == '>' || c == ' ' || c == '\n';
     if (!blank)

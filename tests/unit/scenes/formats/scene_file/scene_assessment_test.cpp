@@ -1,4 +1,5 @@
 // Routes, areas, people and variants: read field by field, mistakes with their lines.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "scenes/light/geometry/polygon.hpp"
@@ -56,6 +57,39 @@ facing = [0, -2, 0]
   REQUIRE(s.emphasis.size() == 1);
   CHECK(s.emphasis[0].kind == EmphasisKind::fire_equipment);
   CHECK(*s.emphasis[0].facing == glm::dvec3(0, -1, 0));
+}
+
+TEST_CASE("rooms are read, and two that overlap on one storey are reported by name",
+          "[format][scene]") {
+  SceneFolder f;
+  const std::string hall =
+      "[[room]]\nname = \"hall\"\noutline = [[0, 0], [4, 0], [4, 4], [0, 4]]\n";
+  const auto room = [](const std::string& at, const std::string& z) {
+    return "[[room]]\nname = \"store\"\nz = " + z + "\noutline = [[" + at +
+           ", 0], [9, 0], [9, 4], [" + at + ", 4]]\n";
+  };
+  // Rooms share a wall; a room of the next storey stands above.
+  CHECK(good(f, hall + room("4", "0")).rooms.size() == 2);
+  CHECK(good(f, hall + room("3", "3")).rooms[1].z_m == 3);
+  const auto read = f.read(hall + room("3", "0"));
+  REQUIRE(read.problems.list().size() == 1);
+  const Problem problem = read.problems.list().front();
+  CHECK(problem.where.line == 4);
+  CHECK(problem.what ==
+        "room 'store' overlaps room 'hall' by 4 m2: a place belongs to one room, mend an outline");
+}
+
+TEST_CASE("a project without a name is warned of", "[format][scene]") {
+  SceneFolder f;
+  const auto warned = [&](const std::string& text) {
+    const auto s = good(f, text);
+    return std::any_of(s.warnings.begin(), s.warnings.end(), [](const Problem& one) {
+      return one.what.starts_with("[project] has no 'name'");
+    });
+  };
+  CHECK(warned("[project]\nclient = \"A\"\n"));
+  CHECK_FALSE(warned("[project]\nclient = \"A\"\nname = \"B\"\n"));
+  CHECK_FALSE(warned("title = \"nothing\"\n"));
 }
 
 TEST_CASE("unstated assumptions about people have their defaults", "[format][scene]") {
