@@ -14,9 +14,8 @@
 
 namespace luxodus {
 
-/// Default size of a fiber's stack: 64 KB. A particle that collects candidates through Embree uses
-/// 10.8 KB, an eye path that looks for a flame through media 34 KB, and a log line a few; four
-/// times that in builds with sanitizers or without an optimiser.
+/// Default size of a fiber's stack: 64 KB. The deepest call of a fiber so far uses 34 KB, and a log
+/// line a few; four times that in builds with sanitizers or without an optimiser.
 size_t default_stack_bytes();
 
 /// vm.max_map_count of this machine; the kernel's default, 65530, if it cannot be read.

@@ -43,7 +43,7 @@ inline constexpr uint8_t hop_limit = 5;
 inline constexpr size_t outbox_messages = 64;
 /// Messages in several pieces that arrive at this node at once.
 inline constexpr size_t assemblies = 64;
-/// The longest message [bytes]: objects of a scene are far smaller.
+/// The longest message [bytes]: objects are far smaller.
 inline constexpr size_t max_message_bytes = 64 << 20;
 }  // namespace defaults
 
