@@ -62,6 +62,9 @@ struct NetConfig {
   size_t outbox_messages = defaults::outbox_messages;
   size_t assemblies = defaults::assemblies;
   size_t max_message_bytes = defaults::max_message_bytes;
+  /// Whether a link falls as soon as its connection is gone: a killed peer is known within
+  /// milliseconds. Otherwise the peer has the time of missed beats to come back.
+  bool falls_with_connection = false;
   Nanoseconds assembly_patience = seconds(10);  // without a new chunk
   Buggify* buggify = nullptr;                   // rare paths, or null
 

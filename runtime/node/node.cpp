@@ -30,6 +30,9 @@ constexpr size_t reply_bytes = 256;
 
 constexpr size_t max_name_bytes = 100;
 
+/// As app_link_times(): a peer that was started again is connected to soon.
+constexpr int longest_reconnect_ms = 150;
+
 Incarnation fresh_incarnation() {
   Incarnation life{};
   while (life.value == 0)
@@ -147,6 +150,7 @@ NetConfig Node::net_config() const {
   net.nodes = options_.nodes.size();
   net.edges = links_of(options_);
   net.times = options_.times;
+  net.falls_with_connection = true;
   net.max_message_bytes =
       std::max(options_.max_message_bytes + head_bytes, options_.max_object_bytes + reply_bytes);
   const size_t hops = longest_route(net.nodes, net.edges) + 2;  // a detour around one failure
@@ -189,8 +193,12 @@ Result<void> Node::open_machine() {
   std::vector<Admitted> admitted;
   for (uint16_t node = 0; node < options_.public_keys.size(); ++node)
     admitted.push_back({{node}, options_.public_keys[node]});
-  machine_ = std::make_unique<Machine>(
-      admitted, ZmqConfig{{options_.self}, options_.keys, options_.insecure}, *clock_);
+  machine_ = std::make_unique<Machine>(admitted,
+                                       ZmqConfig{.self = {options_.self},
+                                                 .keys = options_.keys,
+                                                 .insecure = options_.insecure,
+                                                 .max_reconnect_ms = longest_reconnect_ms},
+                                       *clock_);
   transport_ = &machine_->sockets;
   return join();
 }
@@ -284,7 +292,7 @@ int Node::run() {
     return started.problem().kind == ProblemKind::bad_input ? 2 : 1;
   }
   parts_->shell.run();
-  if (!verdict()) return 0;
+  if (leaving_) return 0;
   fmt::print(stderr, "node {}: {}\n", options_.self, verdict()->text);
   return 1;
 }
@@ -305,6 +313,10 @@ void Node::die() {
   Fibers& fibers = parts_->shell.scheduler().fibers();
   fibers.cancel_all();
   while (fibers.any_ready()) fibers.run_next();
+}
+
+void Node::leave() {
+  if (!parts_ || !verdict()) leaving_ = true;
 }
 
 void Node::wake() noexcept {

@@ -34,6 +34,15 @@
 
 namespace luxodus {
 
+/// A link that failed is tried again this often, so that a peer that comes back is used within 200
+/// ms. An attempt costs one frame.
+constexpr LinkTimes app_link_times() {
+  LinkTimes times;
+  times.backoff = milliseconds(100);
+  times.max_backoff = milliseconds(150);
+  return times;
+}
+
 struct NodeOptions {
   uint16_t self = 0;               // number of this node
   std::vector<std::string> nodes;  // where each node listens, by number: "tcp://10.0.0.1:7400"
@@ -50,7 +59,7 @@ struct NodeOptions {
   size_t max_object_bytes = 1 << 20;           // of one object; equal at all nodes
   size_t store_bytes = 1 << 30;                // objects that are put here
   size_t objects = 4096;                       // names of others' objects that are remembered
-  LinkTimes times = {};
+  LinkTimes times = app_link_times();
 };
 
 struct ActorOptions {
@@ -103,8 +112,9 @@ class Node {
 
   // ---- on the node's thread --------------------------------------------------------------------
 
-  /// The node ends: fibers are cancelled, neighbours told.
-  void leave() { leaving_ = true; }
+  /// The node ends: fibers are cancelled, neighbours told. What fails because of that is no failure
+  /// of the node.
+  void leave();
 
   /// Sends a message. On a fiber it waits for room in the node's outbox. Errors: a content over
   /// max_message_bytes; no route to the node; no room. Suspends if it is on a fiber.

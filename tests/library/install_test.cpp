@@ -62,6 +62,34 @@ TEST_CASE("a program outside of this tree is built with pkg-config and runs",
   CHECK(run(folder, "./outside") == "outside: hello, hello\n");
 }
 
+TEST_CASE("configuring the runtime alone asks for no library of the light", "[library][install]") {
+  const TemporaryFolder folder;
+  run(folder, "cmake -S " LUX_SOURCE_DIR
+              " -B built -DLUX_RUNTIME_ONLY=ON -DLUX_TESTS=OFF -DCMAKE_BUILD_TYPE=Release");
+  const std::string cache = text_of(folder / "built/CMakeCache.txt");
+  for (const char* needed : {"spdlog_DIR", "cppzmq_DIR", "capnp_VERSION", "xxhash_VERSION"}) {
+    INFO(needed);
+    CHECK(cache.find(needed) != std::string::npos);
+  }
+  for (const char* not_needed :
+       {"embree", "glm_DIR", "openexr", "cairo", "cbc", "nlopt", "CLI11", "PNG", "pybind11"}) {
+    INFO(not_needed);
+    CHECK(cache.find(not_needed) == std::string::npos);
+  }
+}
+
+// It compiles the whole runtime, which takes minutes.
+TEST_CASE("the runtime alone is built, installed and used", "[.long][library][install]") {
+  const TemporaryFolder folder;
+  run(folder, "cmake -S " LUX_SOURCE_DIR
+              " -B runtime -DLUX_RUNTIME_ONLY=ON -DLUX_TESTS=OFF -DCMAKE_BUILD_TYPE=Release"
+              " && cmake --build runtime --parallel 2"
+              " && cmake --install runtime --prefix installed");
+  run(folder, "cmake -S " + outside + " -B built -DCMAKE_PREFIX_PATH=$PWD/installed" +
+                  " && cmake --build built");
+  CHECK(run(folder, "built/outside") == "outside: hello, hello\n");
+}
+
 TEST_CASE("what is installed names nothing of this tree", "[library][install]") {
   const TemporaryFolder folder;
   const fs::path prefix = install(folder);
