@@ -81,18 +81,13 @@ struct Grant {
   friend bool operator==(const Grant&, const Grant&) = default;
 };
 
-/// The actors of a node that others may send to. A byte from outside may be none of these.
+/// The actors of a node that others may send to. Whoever builds on the runtime gives the other
+/// numbers a meaning; 8 to 255 are free. A byte from outside may be any.
 enum class ActorName : uint8_t {
-  none = 0,     // the network itself
-  coordinator,  // leases batches, counts flushes
-  tracer,       // traces them
-  tally_shard,  // holds a range of the totals' bins
-  part_server,  // fetches parts of the scene, and gives them to others
-  display,      // shows what is counted, and writes the results
-  journal,      // of its node's coordinator; no message from elsewhere is for it
+  none = 0,         // the network itself
+  part_server = 4,  // fetches objects, and gives them to others
+  application = 7,  // the actors of an application of the library: AppMessage names which
 };
-inline constexpr std::array<const char*, 7> actor_names{
-    "none", "coordinator", "tracer", "tally_shard", "part_server", "display", "journal"};
 
 /// Where an actor is in the cluster: its node, and which actor of that node.
 struct Address {
@@ -627,13 +622,48 @@ struct FluxSaved {
   friend bool operator==(const FluxSaved&, const FluxSaved&) = default;
 };
 
+/// Which actors of an application speak, and what the payload is. Numbers are hashes of the actors'
+/// names.
+struct AppHead {
+  uint64_t from = 0;
+  uint64_t to = 0;
+  uint64_t schema = 0;
+  bool answer = false;
+
+  static constexpr void fields(auto&& field, auto& m) {
+    field("from", m.from, "hash of the sender's name; 0: it has none");
+    field("to", m.to, "hash of the receiver's name; of an answer: as the request's sender");
+    field("schema", m.schema, "id of the payload's Cap'n Proto struct; 0: bytes");
+    field("answer", m.answer, "whether it answers the request of this id");
+  }
+  friend bool operator==(const AppHead&, const AppHead&) = default;
+};
+
+/// A message of an application, in one frame of the control lane. Its content follows as payload.
+struct AppMessage {
+  AppHead head;
+
+  static constexpr MessageType type{"AppMessage", Kind::control};
+  static constexpr void fields(auto&& field, auto& m) { field("", m.head); }
+  friend bool operator==(const AppMessage&, const AppMessage&) = default;
+};
+
+/// A longer one, which takes turns with others on the bulk lane.
+struct AppBulk {
+  AppHead head;
+
+  static constexpr MessageType type{"AppBulk", Kind::commit};
+  static constexpr void fields(auto&& field, auto& m) { field("", m.head); }
+  friend bool operator==(const AppBulk&, const AppBulk&) = default;
+};
+
 /// One of each, in the order of the union in wire.capnp.
-using Message =
-    std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject, ObjectFound,
-                 ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced, Flush, FlushTaken,
-                 FlushRefused, RoundOpened, RunEnded, ProfileCounted, AskStatus, StatusAnswered,
-                 EnterPhase, FlushSlice, SliceHeld, FlushDecided, FlushSettled, AskTotals,
-                 TotalsTold, AskState, StateTold, ShowTotals, TotalsShown, FluxSaved>;
+using Message = std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject,
+                             ObjectFound, ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced,
+                             Flush, FlushTaken, FlushRefused, RoundOpened, RunEnded, ProfileCounted,
+                             AskStatus, StatusAnswered, EnterPhase, FlushSlice, SliceHeld,
+                             FlushDecided, FlushSettled, AskTotals, TotalsTold, AskState, StateTold,
+                             ShowTotals, TotalsShown, FluxSaved, AppMessage, AppBulk>;
 
 /// The kind whose buffers and credit a message uses.
 inline Kind kind_of(const Message& message) {

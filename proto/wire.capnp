@@ -65,6 +65,8 @@ struct Message {
     showTotals @29 :ShowTotals;
     totalsShown @30 :TotalsShown;
     fluxSaved @31 :FluxSaved;
+    appMessage @32 :AppMessage;
+    appBulk @33 :AppMessage;
   }
 }
 
@@ -210,4 +212,11 @@ struct TotalsShown {
 struct FluxSaved {
   show @0 :UInt32;
   fault @1 :Text;
+}
+
+struct AppMessage {
+  from @0 :UInt64;
+  to @1 :UInt64;
+  schema @2 :UInt64;
+  answer @3 :Bool;
 }

@@ -48,7 +48,7 @@ struct Fault {
     // node and peer: the connection breaks, frames in flight are lost, both are notified
     disconnect,
     full_disk,    // node: its writes to the journal fail
-    failed_read,  // node: its reads of scene parts fail, as from a broken disk
+    failed_read,  // node: its reads of objects fail, as from a broken disk
     failure       // node: the next handler of its `actor` throws
   };
   Kind kind = Kind::crash;

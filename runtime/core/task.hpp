@@ -18,7 +18,7 @@ class Task {
   Task() = default;
 
   template <class Callable, class = std::enable_if_t<!std::is_same_v<Callable, Task>>>
-  Task(Callable callable)  // NOLINT: implicit on purpose, `start("photon", [this] { ... })`
+  Task(Callable callable)  // NOLINT: implicit on purpose, `start("reader", [this] { ... })`
       : call_([](const void* capture) { (*static_cast<const Callable*>(capture))(); }) {
     static_assert(std::is_trivially_copyable_v<Callable>, "capture pointers and numbers only");
     static_assert(sizeof(Callable) <= max_capture_bytes, "capture a pointer to what is larger");

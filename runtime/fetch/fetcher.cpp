@@ -42,6 +42,7 @@ void check_fetch(const FetchConfig& config, const std::vector<ObjectPlace>& obje
   for (const ObjectPlace& object : objects) {
     if (object.holders.size() > limits::holders)
       throw std::invalid_argument("fetch: an object has more holders than can be asked");
+    if (object.wire_bytes == 0 && object.holders.empty()) continue;  // entered later
     if (object.wire_bytes == 0) throw std::invalid_argument("fetch: an object has no bytes");
     if (object.wire_bytes > config.receive_bytes)
       throw std::invalid_argument(fmt::format(
@@ -64,7 +65,7 @@ Fetcher::Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& obje
       timers_(timers),
       clock_(clock),
       jitter_(jitter),
-      routes_(nodes_of(objects)),
+      routes_(std::max(config.nodes, nodes_of(objects))),
       waiting_(objects.size()),
       flights_("flights", config.flights, WhenEmpty::wait),
       sequences_(config.flights) {}
@@ -356,8 +357,8 @@ bool Fetcher::accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, Node
       log_warning("fetch=wrong_bytes node={} object={:#x} answered_by={} total={} text=\"{}\"",
                   config_.self.value, place.id.value, from.value, counters_.wrong_hash,
                   text_of(wish.object, from == config_.self
-                                           ? "it is damaged there: pack the scene again, or copy "
-                                             "the pack again"
+                                           ? "it is damaged where it is stored: make that file "
+                                             "again, or copy it again"
                                            : "what the other node gave is damaged"));
     return false;
   }

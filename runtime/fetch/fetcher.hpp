@@ -52,6 +52,9 @@ struct FetchConfig {
   /// Whether others are served objects that this node has only in its cache.
   bool shares_cache = true;
   TimeoutLimits timeouts;
+  /// Nodes of the run, if objects are entered later (PartServer::enter); else 0: those that hold
+  /// objects are known from the start.
+  size_t nodes = 0;
   /// Links to each node, by number: the nearest holder of an object is asked first, then those that
   /// follow it. Empty: in the order of ObjectPlace.
   std::vector<uint32_t> hops;
@@ -74,8 +77,9 @@ class FetchClient {
 class Fetcher {
  public:
   /// Allocates everything but objects' bytes. Timers run as tasks of `owner`. `jitter` is a random
-  /// stream of its own. Requires: all references outlive this; `objects` does not change. Errors
-  /// (exception): an object without bytes, or longer than receive_bytes; too many holders.
+  /// stream of its own. Requires: all references outlive this; `objects` does not change, but for
+  /// places without holders and bytes (PartServer::enter). Errors (exception): an object without
+  /// bytes, or longer than receive_bytes; too many holders.
   Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects, ObjectStore& store,
           Sender& sender, Supervised& owner, Timers& timers, const Clock& clock,
           const Random& jitter);

@@ -37,7 +37,7 @@ class ObjectStore {
   /// The bytes of the object at this index, for this node itself when no other delivers them; empty
   /// if there is no storage.
   virtual SharedBytes find_in_storage([[maybe_unused]] uint32_t object) { return {}; }
-  /// The object's name and storage for people: "scene part 7 of tower.luxpack"; empty if there is
+  /// The object's name and storage for people: "part 7 of tower.pack"; empty if there is
   /// no storage.
   virtual std::string stored_name([[maybe_unused]] uint32_t object) const { return {}; }
 };

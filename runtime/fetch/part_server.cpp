@@ -15,7 +15,7 @@ std::vector<std::pair<ObjectId, uint32_t>> numbers_of(const std::vector<ObjectPl
   std::vector<std::pair<ObjectId, uint32_t>> numbers;
   numbers.reserve(objects.size());
   for (uint32_t object = 0; object < objects.size(); ++object)
-    numbers.emplace_back(objects[object].id, object);
+    if (objects[object].wire_bytes > 0) numbers.emplace_back(objects[object].id, object);
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
@@ -65,6 +65,21 @@ void PartServer::add_metrics(Metrics& metrics) const {
                       c.waited);
   metrics.add_counter({"requests_dropped", "", "Of those, beyond the room for them.", ""},
                       c.dropped);
+}
+
+// ---- objects that are entered later ------------------------------------------------------------
+
+void PartServer::enter(ObjectId id, uint32_t object) {
+  const std::pair entry(id, object);
+  numbers_.insert(std::lower_bound(numbers_.begin(), numbers_.end(), entry), entry);
+}
+
+void PartServer::forget(ObjectId id, uint32_t object) {
+  LUX_CHECK(cache_.state(object) == ObjectState::absent, "forgot an object that is in use");
+  const std::pair entry(id, object);
+  const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), entry);
+  LUX_CHECK(at != numbers_.end() && *at == entry, "forgot an object that was not entered");
+  numbers_.erase(at);
 }
 
 // ---- requests of others -------------------------------------------------------------------------

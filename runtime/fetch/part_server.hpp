@@ -39,8 +39,8 @@ class PartServer final
       private AwaitedRooms {
  public:
   /// Allocates everything but objects. `jitter` is a random stream of its own. Requires: all
-  /// references outlive this; `objects` does not change. Errors (exception): those of Fetcher and
-  /// ObjectCache.
+  /// references outlive this; `objects` does not change, but for places without holders and bytes.
+  /// Errors (exception): those of Fetcher and ObjectCache.
   PartServer(const FetchConfig& fetch, const CacheConfig& cache,
              const std::vector<ObjectPlace>& objects, ObjectStore& store, ObjectBuilder& builder,
              Scheduler& scheduler, Sender& sender, const Random& jitter);
@@ -53,6 +53,12 @@ class PartServer final
   static size_t max_timers(const FetchConfig& fetch) {
     return Fetcher::max_timers(fetch) + ObjectCache::max_timers + 1;
   }
+
+  /// The place at this index of the list of objects has been filled: from now on the object is
+  /// given to others while it is resident. Requires: it was empty, without holders and bytes.
+  void enter(ObjectId id, uint32_t object);
+  /// The place is about to be emptied. Requires: the object is absent.
+  void forget(ObjectId id, uint32_t object);
 
   ObjectCache& cache() { return cache_; }
   const ObjectCache& cache() const { return cache_; }
@@ -96,7 +102,7 @@ class PartServer final
 
   const FetchConfig config_;
   ObjectStore& store_;
-  std::vector<std::pair<ObjectId, uint32_t>> numbers_;  // of all objects, sorted by id
+  std::vector<std::pair<ObjectId, uint32_t>> numbers_;  // of known objects, sorted by id
   Fetcher fetcher_;
   ObjectCache cache_;
   Ring<Question> waiting_;

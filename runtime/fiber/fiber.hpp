@@ -40,11 +40,11 @@ class Fiber : public ListHook {
  public:
   FiberId id() const { return id_; }
   FiberState state() const { return state_; }
-  /// Kind of fiber, a literal: "photon".
+  /// Kind of fiber, a literal: "reader".
   const char* tag() const { return tag_; }
   /// Where it last suspended, a literal: "fetch"; "start" if it never did.
   const char* reason() const { return reason_; }
-  /// What it works on, set by its body: a particle's id.
+  /// What it works on, set by its body: the id of an order.
   uint64_t subject() const { return subject_; }
 
  private:
@@ -137,7 +137,7 @@ class Fibers {
   const StackPool& stacks() const { return stacks_; }
   /// Bytes of a fiber without its stack, for a memory plan.
   static constexpr size_t bytes_each = sizeof(Fiber) + FixedPool<Fiber>::bytes_beside;
-  /// Number of live fibers, and the first few of them: "3 fibers: photon in fetch, ...".
+  /// Number of live fibers, and the first few of them: "3 fibers: reader in fetch, ...".
   std::string describe_live() const;
 
  private:

@@ -1,5 +1,5 @@
 // Reports the overflow of a fiber's stack in one line before the process ends with a core dump:
-//   luxodus: fiber 17 (photon) overflowed its stack of 32768 bytes; raise stack_kb
+//   luxodus: fiber 17 (reader) overflowed its stack of 65536 bytes; raise stack_kb
 // Other faults go to the previous handler. Thread rule: each thread that runs fibers holds one.
 #pragma once
 

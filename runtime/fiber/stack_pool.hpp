@@ -1,9 +1,9 @@
 // The stacks of a node's fibers: one mapping made at start, cut into equal slots. Below each stack
 // lies a guard, so that an overflow faults at a known address (overflow_report.hpp reports it) and
 // never corrupts another fiber's data. A guard costs the kernel two maps of the process's
-// vm.max_map_count; if those are too few, every k-th stack has one, and the others have a canary at
-// their low end, above a gap that absorbs the first part of an overflow. Pages become resident only
-// when they are touched. Thread rule: belongs to one node.
+// vm.max_map_count; if those are too few, every k-th stack has one, and the others have a gap that
+// absorbs the first part of an overflow, with a canary at its end. Pages become resident only when
+// they are touched. Thread rule: belongs to one node.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,8 @@
 
 namespace luxodus {
 
-/// Default size of a fiber's stack: 64 KB. A particle that collects candidates through Embree uses
-/// 10.8 KB, an eye path that looks for a flame through media 34 KB, and a log line a few; four
-/// times that in builds with sanitizers or without an optimiser.
+/// Default size of a fiber's stack: 64 KB. The deepest call of a fiber so far uses 34 KB, and a log
+/// line a few; four times that in builds with sanitizers or without an optimiser.
 size_t default_stack_bytes();
 
 /// vm.max_map_count of this machine; the kernel's default, 65530, if it cannot be read.
@@ -42,7 +41,8 @@ class StackPool {
   /// Requires: index < count().
   StackSpan stack(size_t index) const;
 
-  /// False once the fiber on a stack without a guard has written past its end.
+  /// False once the fiber on a stack without a guard has written further past its end than a guard
+  /// would let it.
   bool canary_lives(size_t index) const;
 
   /// Names the fiber on the stack, for the overflow report; a literal, or null.
@@ -63,6 +63,7 @@ class StackPool {
     void operator()(char* base) const noexcept;
   };
   char* low_end(size_t index) const;
+  char* canary_of(size_t index) const;
 
   size_t stack_bytes_;
   size_t slot_bytes_;

@@ -11,10 +11,11 @@ namespace luxodus {
 ActorSystem::ActorSystem(NodeId self, Network& network, size_t max_payload_bytes)
     : self_(self), network_(network), pool_(max_payload_bytes) {}
 
-void ActorSystem::add(ActorName name, Recipient& actor) {
+void ActorSystem::add(ActorName name, Recipient& actor, const char* label) {
   Place& place = places_.at(static_cast<size_t>(name));
   LUX_CHECK(place.actor == nullptr, "two actors of one name");
   place.actor = &actor;
+  place.label = label;
 }
 
 SendOutcome ActorSystem::send(Address from, Address to, const MessageId& id, const Message& message,
@@ -31,8 +32,8 @@ SendOutcome ActorSystem::send(Address from, Address to, const MessageId& id, con
 
 /// Null, and counted, if no actor of this name is here.
 ActorSystem::Place* ActorSystem::place_of(ActorName to) {
-  const auto name = static_cast<size_t>(to);  // any byte, if it comes from outside
-  if (name < places_.size() && places_[name].actor != nullptr) return &places_[name];
+  Place& place = places_[static_cast<size_t>(to)];  // any byte, if it comes from outside
+  if (place.actor != nullptr) return &place;
   ++counters_.no_actor;
   return nullptr;
 }
@@ -86,10 +87,9 @@ void ActorSystem::deliver(const Delivery& delivery) {
 }
 
 bool ActorSystem::intercept(const Delivery& passing) {
-  const auto name = static_cast<size_t>(passing.actors.to);
-  if (name >= places_.size() || places_[name].actor == nullptr) return false;
+  Place& place = places_[static_cast<size_t>(passing.actors.to)];
+  if (place.actor == nullptr) return false;
   if (passing.source == self_ || !passing.payload.empty()) return false;
-  Place& place = places_[name];
   return place.actor->answers(passing.message) && put(place, {{passing.source, passing.actors.from},
                                                               passing.id,
                                                               passing.message,
@@ -131,10 +131,9 @@ void ActorSystem::add_metrics(Metrics& metrics) const {
       c.not_accepted);
   metrics.add_counter({"messages_no_room", "", "Messages without room for their payload.", ""},
                       c.no_room);
-  for (size_t name = 0; name < places_.size(); ++name) {
-    const Place& place = places_[name];
+  for (const Place& place : places_) {
     if (place.actor == nullptr) continue;
-    const std::string actor = fmt::format("actor=\"{}\"", actor_names[name]);
+    const std::string actor = fmt::format("actor=\"{}\"", place.label);
     metrics.add_counter({"mailbox_taken", "", "Messages that came to an actor.", actor},
                         place.taken);
     metrics.add_counter({"mailbox_rejected", "", "Messages to a full mailbox.", actor},

@@ -84,8 +84,9 @@ class ActorSystem final : public Sender {
   ActorSystem(NodeId self, Network& network, size_t max_payload_bytes);
 
   NodeId self() const { return self_; }
-  /// Requires: the name is unused; `actor` outlives this.
-  void add(ActorName name, Recipient& actor);
+  /// `label` is the actor's name in metrics. Requires: the name is unused; `actor` and `label`
+  /// outlive this.
+  void add(ActorName name, Recipient& actor, const char* label);
 
   MessageId next_id() override { return network_.next_id(); }
   SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
@@ -116,11 +117,13 @@ class ActorSystem final : public Sender {
   void sample();
 
  private:
+  static constexpr size_t actors = 256;  // whatever a byte may name
   using Key = std::pair<uint64_t, uint64_t>;
   static Key key_of(const MessageId& id) { return {id.incarnation.value, id.sequence}; }
 
   struct Place {
     Recipient* actor = nullptr;
+    const char* label = "";
     uint64_t taken = 0;     // total
     uint64_t rejected = 0;  // its mailbox was full
     uint64_t waiting = 0;   // at the last sample
@@ -132,7 +135,7 @@ class ActorSystem final : public Sender {
 
   const NodeId self_;
   Network& network_;
-  std::array<Place, actor_names.size()> places_{};  // by name
+  std::array<Place, actors> places_{};  // by name
   RoomPool pool_;
   std::pmr::unsynchronized_pool_resource memory_;    // for the map below
   std::pmr::map<Key, PayloadRoom> rooms_{&memory_};  // of messages that arrive in pieces

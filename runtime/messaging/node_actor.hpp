@@ -2,12 +2,12 @@
 // types that it receives as `Letter<Message>`, each with a limit and a reaction, and has a handler
 // for every one:
 //
-//   class TracingWorker final
-//       : public NodeActor<TracingWorker, ControlLane<Accepts<Letter<LeaseGranted>, 8,
-//       WhenFull::reject>>,
-//                          DataLane<Accepts<PackFlush, 1, WhenFull::coalesce>>> {
-//     void on(const Letter<LeaseGranted>& granted);
-// sent by itself: no address leads to it
+//   class Server final
+//       : public NodeActor<Server,
+//                          ControlLane<Accepts<Letter<FetchObject>, 64, WhenFull::reject>>,
+//                          DataLane<Accepts<Tidy, 1, WhenFull::coalesce>>> {
+//     void on(const Letter<FetchObject>& request);
+//     void on(const Tidy&);  // sent by itself: no address leads to it
 //
 // A kind that comes from other nodes never waits for room: see ActorSystem. Every message may
 // arrive twice. Thread rule: the node's thread.

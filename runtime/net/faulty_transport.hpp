@@ -52,6 +52,7 @@ class FaultyTransport final : public Transport {
   void renew(NodeId neighbour) override { below_.renew(neighbour); }
   void part(NodeId neighbour) override { below_.part(neighbour); }
   std::optional<Arrival> receive() override;
+  uint64_t lost_connections() const override { return below_.lost_connections(); }
   void wait_until(Nanoseconds until) override;
   void wake() noexcept override { below_.wake(); }
 

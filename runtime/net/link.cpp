@@ -109,7 +109,7 @@ void Link::tick(Nanoseconds now) {
     state_.unreachable(now);
 }
 
-void Link::beat(uint64_t view_hash) {
+void Link::beat(uint64_t view_hash, Nanoseconds now) {
   if (!state_.accepted()) return;
   for (const Lane lane : {Lane::control, Lane::bulk}) {
     Beat beat;
@@ -121,7 +121,9 @@ void Link::beat(uint64_t view_hash) {
         beat.pools.push_back({kind, hops, pool.out.sent(), pool.in.announce()});
       }
     }
-    (void)say(Message{beat}, lane);  // the next beat repeats it
+    const Sent sent = say(Message{beat}, lane);  // if it is full, the next beat repeats it
+    if (sent == Sent::unreachable && around_.config.falls_with_connection)
+      return state_.unreachable(now);
   }
 }
 

@@ -56,7 +56,7 @@ class Link {
   void tick(Nanoseconds now);
   void forgive(Nanoseconds span) { state_.forgive(span); }
   /// Sends one beat on each lane, to an accepted neighbour: all totals and limits of the lane.
-  void beat(uint64_t view_hash);
+  void beat(uint64_t view_hash, Nanoseconds now);
   void say_bye();
   void say(const LinkChanges& changes);
 

@@ -20,9 +20,10 @@ void LinkState::unreachable(Nanoseconds now) {
 
 bool LinkState::accept(Incarnation peer, Nanoseconds now) {
   const bool another = peer != peer_;
+  // It does not hear us, or it would not greet: only what is addressed to us keeps the link up.
+  if (usable() && !another) return false;
   peer_ = peer;
   heard(now);
-  if (usable() && !another) return false;
   accepted_ = true;
   if (phase_ != LinkPhase::greeting) {
     phase_ = LinkPhase::greeting;

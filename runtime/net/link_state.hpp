@@ -58,7 +58,8 @@ class LinkState {
   /// The transport has no connection.
   void unreachable(Nanoseconds now);
   /// The peer's identity agrees with ours. Returns true if this is a new incarnation: counts of the
-  /// previous one are void.
+  /// previous one are void. A greeting of a peer that is accepted already is no sign of life: on a
+  /// link that loses what we send, it greets for as long as it does not hear us.
   bool accept(Incarnation peer, Nanoseconds now);
   /// The accepted peer addressed this incarnation of ours.
   void acknowledge(Nanoseconds now);

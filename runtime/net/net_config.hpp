@@ -43,7 +43,7 @@ inline constexpr uint8_t hop_limit = 5;
 inline constexpr size_t outbox_messages = 64;
 /// Messages in several pieces that arrive at this node at once.
 inline constexpr size_t assemblies = 64;
-/// The longest message [bytes]: objects of a scene are far smaller.
+/// The longest message [bytes]: objects are far smaller.
 inline constexpr size_t max_message_bytes = 64 << 20;
 }  // namespace defaults
 
@@ -62,6 +62,9 @@ struct NetConfig {
   size_t outbox_messages = defaults::outbox_messages;
   size_t assemblies = defaults::assemblies;
   size_t max_message_bytes = defaults::max_message_bytes;
+  /// Whether a link falls as soon as its connection is gone: a killed peer is known within
+  /// milliseconds. Otherwise the peer has the time of missed beats to come back.
+  bool falls_with_connection = false;
   Nanoseconds assembly_patience = seconds(10);  // without a new chunk
   Buggify* buggify = nullptr;                   // rare paths, or null
 

@@ -18,6 +18,11 @@ constexpr size_t arriving_bytes_per_turn = 1 << 20;
 /// One line a minute for each kind of trouble at each link, so that a peer cannot flood the log.
 constexpr Nanoseconds log_interval = seconds(60);
 
+/// Beats after a lost connection, beside the first, and the time between them: ZeroMQ closes within
+/// a few milliseconds what it has told to be lost.
+constexpr int beats_of_a_probe = 4;
+constexpr Nanoseconds probe_interval = milliseconds(5);
+
 void check(const NetConfig& config) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("network: ") + what);
@@ -153,10 +158,13 @@ bool Network::poll(Nanoseconds now) {
   own_lag(now);
   const bool more_arrivals = receive(now);
   for (Link& link : links_) link.tick(now);
-  watch_links();
+  watch_links(now);
+  probe_if_disturbed(now);
   if (now >= next_beat_) {
-    for (Link& link : links_) link.beat(view_.hash());
-    next_beat_ = now + config_.times.beat;
+    for (Link& link : links_) link.beat(view_.hash(), now);
+    const bool probes = probes_ > 0;
+    probes_ -= probes ? 1 : 0;
+    next_beat_ = now + (probes ? std::min(probe_interval, config_.times.beat) : config_.times.beat);
     LinkChanges news;
     for (size_t i = 0; i < links_.size(); ++i) {
       // An end of a link knows its state best. It waits for as long as the other end may have been
@@ -173,7 +181,7 @@ bool Network::poll(Nanoseconds now) {
   given_ = false;
   const bool more_moves = router_.pump(view_.epoch(), now);
   for (Link& link : links_) link.tell_grants();
-  watch_links();  // a send may have found a neighbour unreachable
+  watch_links(now);  // a send may have found a neighbour unreachable
   while (const auto idle = assembler_.close_idle(now - config_.assembly_patience)) {
     ++counters_.assemblies_abandoned;
     handler_.abandoned(idle->id, idle->kind);
@@ -203,6 +211,15 @@ void Network::own_lag(Nanoseconds now) {
                 late / milliseconds(1), counters_.beats_late);
   }
   for (Link& link : links_) link.forgive(late);
+}
+
+/// A connection has been lost, and the transport does not tell whose: beats find out. The first may
+/// still be taken for a connection that is being closed.
+void Network::probe_if_disturbed(Nanoseconds now) {
+  const uint64_t lost = transport_.lost_connections();
+  if (std::exchange(lost_connections_, lost) == lost || !config_.falls_with_connection) return;
+  next_beat_ = std::min(next_beat_, now);
+  probes_ = beats_of_a_probe;
 }
 
 bool Network::receive(Nanoseconds now) {
@@ -369,7 +386,7 @@ void Network::learn(const LinkChanges& told, const Link& by) {
   spread(news, &by);
 }
 
-void Network::watch_links() {
+void Network::watch_links(Nanoseconds now) {
   LinkChanges news;
   for (size_t i = 0; i < links_.size(); ++i) {
     const LinkState& state = links_[i].state();
@@ -379,7 +396,7 @@ void Network::watch_links() {
     if (last.usable && (!state.usable() || another_session)) ++counters_.links_down;
     if (another_session) {
       ++counters_.links_up;
-      links_[i].beat(view_.hash());  // with the first grants
+      links_[i].beat(view_.hash(), now);  // with the first grants
       links_[i].say(view_.changes());
     }
     last.usable = state.usable();

@@ -155,6 +155,7 @@ class Network {
   };
 
   void own_lag(Nanoseconds now);
+  void probe_if_disturbed(Nanoseconds now);
   bool receive(Nanoseconds now);
   void take_frame(const Arrival& arrival, Nanoseconds now);
   void take_link_message(Link& link, const OpenedFrame& frame, Lane lane, Nanoseconds now);
@@ -166,7 +167,7 @@ class Network {
   bool take_here(const Envelope& envelope, std::span<const std::byte> body, Nanoseconds now);
   bool take_piece(const Envelope& envelope, std::span<const std::byte> body, Nanoseconds now);
   void make_room(NodeId newcomer);
-  void watch_links();
+  void watch_links(Nanoseconds now);
   void learn(const LinkChanges& told, const Link& by);
   void spread(const LinkChanges& news, const Link* except);
   Link* link_to(NodeId neighbour);
@@ -187,6 +188,8 @@ class Network {
   Router router_;
   uint64_t sequence_ = 0;
   Nanoseconds next_beat_;
+  uint64_t lost_connections_ = 0;  // as the transport has told so far
+  int probes_ = 0;                 // beats that are still to come soon
   OnceAMinute log_lag_;
   bool given_ = false;  // messages were queued since the last poll and have not left yet
 };

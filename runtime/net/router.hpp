@@ -13,7 +13,7 @@
 //
 // A destination must not make a frame wait for the network, or there would be a cycle. So each kind
 // has buffers of its own: a request may wait for room to send its reply; a reply waits for nothing
-// (its requester has set room aside); a commit waits only for the tally, and control for nothing.
+// (its requester has set room aside); a commit waits only for its actor, and control for nothing.
 // Credit returns in link frames, which need none.
 //
 // Thread rule: one node's thread.

@@ -49,6 +49,10 @@ class Transport {
   /// The next frame received, control before bulk; nothing if there is none. Never blocks.
   virtual std::optional<Arrival> receive() = 0;
 
+  /// Connections lost so far. If there is one more, a neighbour may be gone; what is sent to it
+  /// next is unreachable then.
+  virtual uint64_t lost_connections() const { return 0; }
+
   /// Waits for a frame, for wake(), or until `until`, whichever is first.
   virtual void wait_until(Nanoseconds until) = 0;
 

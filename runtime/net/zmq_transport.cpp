@@ -114,7 +114,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as below
   s.set(zmq::sockopt::tcp_maxrt, 5000);
   s.set(zmq::sockopt::reconnect_ivl, 100);
-  s.set(zmq::sockopt::reconnect_ivl_max, 5000);
+  s.set(zmq::sockopt::reconnect_ivl_max, config_.max_reconnect_ms);
 
   // Sockets of one context share the namespace of inproc endpoints.
   const std::string told = "inproc://monitor-" + routing_id(config_.self) + "-" + lane.name;
@@ -128,9 +128,9 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   log_debug(
       "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
       "hwm_frames={} max_frame_bytes={} handshake_ms=2000 tcp_maxrt_ms=5000 "
-      "reconnect_ms=100..5000 curve={}",
+      "reconnect_ms=100..{} curve={}",
       config_.self.value, lane.name, config_.high_water_frames, max_frame_bytes,
-      config_.keys.has_value());
+      config_.max_reconnect_ms, config_.keys.has_value());
 }
 
 Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& endpoint,

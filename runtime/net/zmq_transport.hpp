@@ -37,6 +37,8 @@ struct ZmqConfig {
   /// 16 long frames; only frames shorter than 0.6 KB reach this many, and then wait a beat. It
   /// bounds the memory for a neighbour that ignores credit: 4096 x 64 KB.
   int high_water_frames = 4096;
+  /// Longest pause between attempts to connect, which begin at 100 ms and double.
+  int max_reconnect_ms = 5000;
 };
 
 struct ZmqCounters {
@@ -68,6 +70,7 @@ class ZmqTransport final : public Transport {
   void renew(NodeId neighbour) override;
   void part(NodeId neighbour) override;
   std::optional<Arrival> receive() override;
+  uint64_t lost_connections() const override { return counters_.disconnected; }
   void wait_until(Nanoseconds until) override;
   void wake() noexcept override;
 

@@ -73,7 +73,7 @@ class Node final : NetHandler, EventSource {
         scheduler(limits_for(fibers), system_clock, *this),
         server(fetch_of(self), small_cache(objects.places.front().wire_bytes), objects.places,
                store, builder_, scheduler, system, Random(1, RandomStream::test)) {
-    system.add(ActorName::part_server, server);
+    system.add(ActorName::part_server, server, "part_server");
   }
 
   void run_until(const std::function<bool()>& done) {

@@ -13,5 +13,8 @@ void print_links(Nanoseconds span);
 /// Objects a second that fibers fetch, and their processor time, by size and number of fibers; only
 /// one row if these are given, that is, not 0.
 void print_fetches(Nanoseconds span, size_t bytes, size_t fibers);
+/// What an application of the library sees: requests a second, each measured for `span`; a killed
+/// process; memory of a fiber. Requires: the process has no other threads.
+void print_nodes(Nanoseconds span);
 
 }  // namespace luxodus::bench

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "actors/cast/node/node_shell.hpp"
+#include "actors/cast/node/graph_routes.hpp"
 #include "runtime/net/link_view.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -191,7 +191,7 @@ class Lender final
                        DataLane<>> {
  public:
   Lender(Scheduler& scheduler, Sender& sender)
-      : NodeActor(scheduler, sender, {{0}, ActorName::coordinator}, "lender") {}
+      : NodeActor(scheduler, sender, {{0}, ActorName{1}}, "lender") {}
   void on(const Letter<RequestLease>& request) { sum += request.body.batches; }
   uint64_t sum = 0;
 };
@@ -212,12 +212,12 @@ void print_letters(int repeats) {
   Network network(config, transport, handler, clock.now());
   ActorSystem system({0}, network, 1 << 20);
   Lender lender(scheduler, system);
-  system.add(ActorName::coordinator, lender);
+  system.add(ActorName{1}, lender, "lender");
   constexpr uint64_t letters = 200'000;
   print_cost("letter to an actor of the node, 64 a turn", repeats, letters, [&] {
     for (uint32_t i = 0; i < letters; ++i) {
-      const SendOutcome sent = system.send({{0}, ActorName::tracer}, lender.address(),
-                                           system.next_id(), RequestLease{i});
+      const SendOutcome sent =
+          system.send({{0}, ActorName{2}}, lender.address(), system.next_id(), RequestLease{i});
       if (sent != SendOutcome::taken || i % 64 == 63) scheduler.turn();
     }
   });

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "actors/cast/names/role.hpp"
 #include "actors/lab/simulate/simulation.hpp"
 #include "scenes/formats/scene_file/scene_file.hpp"
 #include "scenes/light/transport/compile.hpp"
@@ -235,7 +236,7 @@ TEST_CASE("a failed actor of a worker takes down its node, and the others give t
     const SimReport report = simulate(scene, options).value();
     CHECK(report.failure == "");
     CHECK(report.leases_fenced > 0);
-    CHECK(actor_names[static_cast<size_t>(report.caches.failed)] == std::string(actor));
+    CHECK(role_name(report.caches.failed) == std::string(actor));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus {
@@ -19,7 +20,7 @@ constexpr Nanoseconds say_again_after = milliseconds(20);
 
 Coordinator::Coordinator(const CoordinatorConfig& config, const CompiledScene& scene,
                          LeaseBook book, Scheduler& scheduler, Network& network, Sender& sender)
-    : NodeActor(scheduler, sender, {config.self, ActorName::coordinator}, "tally"),
+    : NodeActor(scheduler, sender, {config.self, role::coordinator}, "tally"),
       config_(config),
       scene_(scene),
       network_(network),
@@ -408,7 +409,7 @@ void Coordinator::look() {
 
 /// If there is no room or no route, the worker asks again, or look() repeats the message.
 SendOutcome Coordinator::send(NodeId worker, const MessageId& id, const Message& message) {
-  return sender().send(address(), {worker, ActorName::tracer}, id, message);
+  return sender().send(address(), {worker, role::tracer}, id, message);
 }
 
 }  // namespace luxodus

@@ -5,13 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus {
 
 DisplayActor::DisplayActor(const DisplayConfig& config, RunOutput& work, BlockingCalls& calls,
                            Scheduler& scheduler, Network& network, Sender& sender)
-    : NodeActor(scheduler, sender, {config.self, ActorName::display}, "display"),
+    : NodeActor(scheduler, sender, {config.self, role::display}, "display"),
       config_(config),
       work_(work),
       calls_(calls),

@@ -1,5 +1,6 @@
 #include "actors/cast/display/show_control.hpp"
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/messaging/node_actor.hpp"
 
 namespace luxodus {
@@ -53,7 +54,7 @@ void ShowControl::answer(Address to, const MessageId& question, const ShowTotals
 
 void ShowControl::tell_end(const RunEnded& ended, Nanoseconds now) {
   if (!any() || saved_ || !telling_.may_remind(now)) return;
-  const Address display{*display_, ActorName::display};
+  const Address display{*display_, role::display};
   if (sender_.send(self_, display, sender_.next_id(), ended) == SendOutcome::taken)
     telling_.asked(now);
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "actors/cast/display/totals_snapshot.hpp"
+#include "actors/cast/names/role.hpp"
 #include "runtime/messaging/actor_system.hpp"
 #include "runtime/messaging/retry_timer.hpp"
 
@@ -24,7 +25,7 @@ class ShowControl {
   bool any() const { return display_.has_value(); }
   NodeId node() const { return *display_; }
   bool is_display(Address from) const {
-    return from.actor == ActorName::display && display_ == from.node;
+    return from.actor == role::display && display_ == from.node;
   }
 
   /// A request for a piece; one for the first waits until the totals are packed.

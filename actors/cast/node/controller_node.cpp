@@ -1,6 +1,8 @@
 #include "actors/cast/node/controller_node.hpp"
 
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/cast/node/node_plan.hpp"
+#include "actors/cast/supervision/supervision.hpp"
 
 namespace luxodus {
 
@@ -21,8 +23,8 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Con
       node_(node),
       self_(node.net.self),
       shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
-              node.shutdown_phase, setup.routes},
-             setup.graph, seams.clock, seams.transport),
+              node.shutdown_phase},
+             reroute_on(setup.graph, setup.routes, node.net.self), seams.clock, seams.transport),
       calls_(seams.make_calls(shell_.scheduler())),
       coordinator_(lead_config(setup, node),
                    {lead.run, lead.stop, lead.interrupt, std::move(lead.report), setup.shards,
@@ -37,15 +39,15 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Con
 /// Makes the coordinator end the run with this error. If the coordinator itself has failed, tells
 /// its workers in its place; then this node leaves.
 bool ControllerNode::end_run(const Verdict& verdict) {
-  if (verdict.actor != ActorName::coordinator) {
-    verdict.actor == ActorName::display ? coordinator_.lose_display(verdict.text)
-                                        : coordinator_.fail(verdict.text);
+  if (verdict.actor != role::coordinator) {
+    verdict.actor == role::display ? coordinator_.lose_display(verdict.text)
+                                   : coordinator_.fail(verdict.text);
     return true;
   }
   const std::string text = verdict.text.substr(0, limits::text_bytes);
   ActorSystem& actors = shell_.actors();
   for (uint16_t i = 0; i < setup_.graph.workers(); ++i) {
-    const Address worker{{i}, ActorName::tracer};  // some workers may have joined this coordinator
+    const Address worker{{i}, role::tracer};  // some workers may have joined this coordinator
     actors.send(coordinator_.address(), worker, actors.next_id(), RunEnded{0, text});
     actors.send(coordinator_.address(), worker, actors.next_id(), EnterPhase{EndPhase::leave, 0});
   }
@@ -61,13 +63,13 @@ JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams&
 
 void ControllerNode::start(std::function<bool()> broken) {
   if (display_) {
-    shell_.add(ActorName::display, *display_);
+    add_to(shell_, role::display, *display_);
     display_->begin();
   }
-  shell_.add(ActorName::coordinator, coordinator_);
+  add_to(shell_, role::coordinator, coordinator_);
   coordinator_.start();
   if (journal_) {
-    shell_.supervisor().watch(ActorName::journal, *journal_);
+    watch(shell_.supervisor(), role::journal, *journal_);
     journal_->start();
   }
   shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });

@@ -4,6 +4,7 @@
 
 #include "actors/cast/node/node_plan.hpp"
 #include "actors/cast/node/residency_setup.hpp"
+#include "actors/cast/supervision/supervision.hpp"
 
 namespace luxodus {
 
@@ -73,7 +74,7 @@ FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, Nod
               shell.actors(), jitter_of(node.net.self)),
       source_(run.objects->parts(), server_.cache(), shell.scheduler().fibers(), node.prefetch,
               trace) {
-  shell.add(ActorName::part_server, server_);
+  add_to(shell, role::part_server, server_);
 }
 
 void FetchingObjects::add_metrics(Metrics& metrics) const {

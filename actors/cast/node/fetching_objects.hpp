@@ -3,9 +3,9 @@
 #pragma once
 
 #include "actors/cast/node/node_setup.hpp"
-#include "actors/cast/node/node_shell.hpp"
 #include "runtime/fetch/faulty_objects.hpp"
 #include "runtime/fetch/part_server.hpp"
+#include "runtime/node/node_shell.hpp"
 
 namespace luxodus {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "actors/cast/node/node_shell.hpp"
 #include "actors/cast/node/observation.hpp"
+#include "runtime/node/node_shell.hpp"
 
 namespace luxodus {
 

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "actors/cast/node/node_shell.hpp"
+#include "actors/cast/names/role.hpp"
 #include "actors/cast/node/residency_setup.hpp"
 #include "actors/cast/tally/shard_control.hpp"
 #include "actors/cast/tally/tally_shard.hpp"
 #include "actors/cast/tracing/tracing_worker.hpp"
+#include "runtime/node/node_shell.hpp"
 
 namespace luxodus {
 
@@ -160,7 +161,7 @@ SchedulerLimits controller_limits(const NodeSetup& node) {
 DisplayConfig display_config(const NodeSetup& node) {
   DisplayConfig config;
   config.self = node.net.self;
-  config.coordinator = {node.controller, ActorName::coordinator};
+  config.coordinator = {node.controller, role::coordinator};
   config.lost = node.lost;
   return config;
 }

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include "actors/cast/node/fingerprint.hpp"
-#include "actors/cast/node/node_shell.hpp"
+#include "actors/cast/node/graph_routes.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/node/node_shell.hpp"
 
 namespace luxodus {
 

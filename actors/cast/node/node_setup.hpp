@@ -9,7 +9,6 @@
 #include "actors/cast/coordinator/run_coordinator.hpp"
 #include "actors/cast/coordinator/sub_coordinator.hpp"
 #include "actors/cast/display/display_actor.hpp"
-#include "actors/cast/node/node_shell.hpp"
 #include "actors/cast/node/observation.hpp"
 #include "actors/cast/parts/scene_objects.hpp"
 #include "actors/cast/tracing/tracing_fibers.hpp"
@@ -18,7 +17,9 @@
 #include "runtime/config/cluster_config.hpp"
 #include "runtime/net/faulty_transport.hpp"
 #include "runtime/net/zmq_transport.hpp"
+#include "runtime/node/node_shell.hpp"
 #include "topology/coordination_tree.hpp"
+#include "topology/routes.hpp"
 
 namespace luxodus {
 

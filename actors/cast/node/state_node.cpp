@@ -1,6 +1,8 @@
 #include "actors/cast/node/state_node.hpp"
 
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/cast/node/node_plan.hpp"
+#include "actors/cast/supervision/supervision.hpp"
 
 namespace luxodus {
 
@@ -22,13 +24,13 @@ CoordinatorConfig impatient_config(const RunSetup& run, const NodeSetup& node) {
 StateNode::StateNode(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
                      std::function<void()> done)
     : shell_({controller_net(run, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
-              node.shutdown_phase, run.routes},
-             run.graph, seams.clock, seams.transport),
+              node.shutdown_phase},
+             reroute_on(run.graph, run.routes, node.net.self), seams.clock, seams.transport),
       coordinator_(impatient_config(run, node), run.scene, std::move(done), shell_.scheduler(),
                    shell_.network(), shell_.actors()) {}
 
 void StateNode::start(std::function<void()> look) {
-  shell_.add(ActorName::coordinator, coordinator_);
+  add_to(shell_, role::coordinator, coordinator_);
   coordinator_.start();
   shell_.begin([this, look = std::move(look)] {
     look();

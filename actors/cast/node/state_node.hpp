@@ -4,7 +4,7 @@
 
 #include "actors/cast/coordinator/state_coordinator.hpp"
 #include "actors/cast/node/node_setup.hpp"
-#include "actors/cast/node/node_shell.hpp"
+#include "runtime/node/node_shell.hpp"
 
 namespace luxodus {
 

@@ -1,7 +1,9 @@
 #include "actors/cast/node/worker.hpp"
 
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/cast/node/node_plan.hpp"
 #include "actors/cast/node/residency_setup.hpp"
+#include "actors/cast/supervision/supervision.hpp"
 
 namespace luxodus {
 
@@ -16,7 +18,7 @@ TracingWorkerConfig tracer_config(const RunSetup& run, const NodeSetup& node, No
   std::vector<Vertex> coordinators{node.controller.value};
   if (run.tree != nullptr) coordinators = run.tree->coordinators_of(node.net.self.value);
   for (const Vertex leads : coordinators)
-    config.coordinators.push_back({{static_cast<uint16_t>(leads)}, ActorName::coordinator});
+    config.coordinators.push_back({{static_cast<uint16_t>(leads)}, role::coordinator});
   config.start = node.start;
   config.lost = node.lost;
   config.rejoin = node.rejoin;
@@ -39,8 +41,8 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
       shell_({worker_net(run, node), worker_limits(run, node), ShellConfig{}.max_payload_bytes,
-              node.shutdown_phase, run.routes},
-             run.graph, seams.clock, seams.transport),
+              node.shutdown_phase},
+             reroute_on(run.graph, run.routes, node.net.self), seams.clock, seams.transport),
       objects_(run.objects == nullptr ? nullptr
                                       : std::make_unique<FetchingObjects>(
                                             run, node, shell_, seams.make_builder, trace_)),
@@ -116,18 +118,18 @@ void Worker::show_to(Observation& seen) {
 
 void Worker::start(std::function<bool()> stop) {
   stop_ = std::move(stop);
-  shell_.add(ActorName::tracer, tracer_);
+  add_to(shell_, role::tracer, tracer_);
   tracer_.start(work());
   if (coordinator_) {
-    shell_.add(ActorName::coordinator, *coordinator_);
+    add_to(shell_, role::coordinator, *coordinator_);
     coordinator_->start();
   }
   if (shard_) {
-    shell_.add(ActorName::tally_shard, *shard_);
+    add_to(shell_, role::tally_shard, *shard_);
     shard_->start();
   }
   if (display_) {
-    shell_.add(ActorName::display, *display_);
+    add_to(shell_, role::display, *display_);
     display_->begin();
   }
   shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });
@@ -144,7 +146,7 @@ void Worker::start(std::function<bool()> stop) {
 /// A failed display ends the run. If the coordinator does not hear of it, this node is lost to it,
 /// as if a sub-coordinator had failed.
 bool Worker::end_run(const Verdict& verdict) {
-  if (display_ && verdict.actor == ActorName::display) display_->tell_failure(verdict.text);
+  if (display_ && verdict.actor == role::display) display_->tell_failure(verdict.text);
   return false;
 }
 

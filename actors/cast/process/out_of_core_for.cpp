@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "actors/cast/node/fetching_objects.hpp"
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/cast/node/node_plan.hpp"
 #include "runtime/core/denormals.hpp"
 #include "scenes/light/transport/packed_scene.hpp"
@@ -85,7 +86,8 @@ void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
           const ParallelFor::MakeWorker& make, Rows& rows) {
   flush_denormals();
   NoTransport transport(clock);
-  NodeShell shell({node.net, worker_limits(run, node)}, run.graph, clock, transport);
+  NodeShell shell({node.net, worker_limits(run, node)},
+                  reroute_on(run.graph, nullptr, node.net.self), clock, transport);
   FetchingObjects cells(run, node, shell);
   const GeometryAccess access = GeometryAccess::through(*run.proxies, cells.source());
   std::vector<ParallelFor::Worker> workers;

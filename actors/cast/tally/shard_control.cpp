@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "actors/cast/names/role.hpp"
 #include "actors/cast/tally/flush_codec.hpp"
 
 namespace luxodus {
@@ -134,7 +135,7 @@ void ShardControl::end_gather() {
 /// If there is no room, look() tries again.
 void ShardControl::put(const Shard& shard, Question& question, const Message& message) {
   const SendOutcome outcome =
-      sender_.send(self_, {shard.owner, ActorName::tally_shard}, question.id, message);
+      sender_.send(self_, {shard.owner, role::tally_shard}, question.id, message);
   if (outcome == SendOutcome::taken) question.timer.asked(clock_.now());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/log.hpp"
 
@@ -48,7 +49,7 @@ void SliceSender::put_missing(Nanoseconds now) {
 
 SendOutcome SliceSender::put(size_t index) {
   const Slice& slice = slices_[index];
-  return sender_.send(self_, {plan_.owners[index], ActorName::tally_shard}, flush_,
+  return sender_.send(self_, {plan_.owners[index], role::tally_shard}, flush_,
                       FlushSlice{slice.hash}, {slice.encoder->bytes(), slice.encoder});
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
@@ -22,7 +23,7 @@ int64_t piece_of(int groups) {
 
 TallyShard::TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
                        Scheduler& scheduler, Sender& sender)
-    : NodeActor(scheduler, sender, {config.self, ActorName::tally_shard}, "shard"),
+    : NodeActor(scheduler, sender, {config.self, role::tally_shard}, "shard"),
       config_(config),
       totals_(layout, groups, {}),
       encoder_(groups, piece_of(groups)) {}
@@ -154,8 +155,7 @@ void TallyShard::on(const Letter<FlushDecided>& letter) {
 }
 
 void TallyShard::settle(const MessageId& decision, bool whole) {
-  sender().send(address(), {config_.controller, ActorName::coordinator}, decision,
-                FlushSettled{whole});
+  sender().send(address(), {config_.controller, role::coordinator}, decision, FlushSettled{whole});
 }
 
 void TallyShard::add(Slice& slice) {

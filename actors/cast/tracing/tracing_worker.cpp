@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/log.hpp"
@@ -29,7 +30,7 @@ size_t batches_of(const Totals& totals) {
 
 TracingWorker::TracingWorker(const TracingWorkerConfig& config, const ShardPlan& shards,
                              Scheduler& scheduler, Network& network, Sender& sender)
-    : NodeActor(scheduler, sender, {config.self, ActorName::tracer}, "flush"),
+    : NodeActor(scheduler, sender, {config.self, role::tracer}, "flush"),
       config_(config),
       clock_(scheduler.clock()),
       network_(network),
@@ -343,7 +344,7 @@ void TracingWorker::on(const Letter<FlushTaken>& taken) {
 
 /// A shard refuses a slice; the coordinator is then told so.
 void TracingWorker::on(const Letter<FlushRefused>& refused) {
-  if (refused.from.actor == ActorName::tally_shard) {
+  if (refused.from.actor == role::tally_shard) {
     slices_.on(refused);
     put_when_placed(refused.id);
   } else if (hears(refused.from)) {
@@ -426,7 +427,7 @@ void TracingWorker::end(std::optional<Problem> fault) {
 void TracingWorker::on(const Letter<RunEnded>& ended) {
   const bool first_hand = hears(ended.from) || leads_still(ended.from);
   // From a coordinator that was left for another: tells it not to wait for this node.
-  if (!first_hand && ended.from.actor == ActorName::coordinator) {
+  if (!first_hand && ended.from.actor == role::coordinator) {
     tell(ended.from, RequestLease{0});
     return;
   }
@@ -464,7 +465,7 @@ void TracingWorker::pass_on() {
 }
 
 SendOutcome TracingWorker::tell_neighbour(NodeId neighbour) {
-  return tell({neighbour, ActorName::tracer}, end_word_);
+  return tell({neighbour, role::tracer}, end_word_);
 }
 
 void TracingWorker::tell_end(NodeId neighbour) {

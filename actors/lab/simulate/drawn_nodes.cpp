@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "actors/cast/node/graph_routes.hpp"
 #include "runtime/core/random.hpp"
 #include "runtime/sim/swarm.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "actors/cast/display/run_output.hpp"
 #include "actors/cast/journal/snapshot_journal.hpp"
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/results/run/flux_store.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/random.hpp"

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/cast/node/state_node.hpp"
 #include "actors/lab/simulate/drawn_nodes.hpp"
 #include "actors/results/run/run_in_pieces.hpp"

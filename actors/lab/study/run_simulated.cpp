@@ -3,6 +3,7 @@
 // real node is charged here.
 #include <fmt/format.h>
 
+#include "actors/cast/node/graph_routes.hpp"
 #include "actors/lab/simulate/recording.hpp"
 #include "actors/lab/simulate/sim_nodes.hpp"
 #include "actors/lab/study/runs.hpp"

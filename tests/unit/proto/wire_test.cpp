@@ -92,7 +92,7 @@ TEST_CASE("an envelope of version 6 has the bytes that it always had", "[proto][
                           13,
                           14,
                           {Kind::commit, 15, 16},
-                          {ActorName::tracer, ActorName::journal}};
+                          {ActorName{2}, ActorName{6}}};
   Codec codec;
   std::vector<std::byte> out(limits::frame_head_bytes);
   const size_t bytes = codec.encode(envelope, {}, out);

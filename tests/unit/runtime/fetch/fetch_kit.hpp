@@ -108,7 +108,7 @@ class FetchNode final : public NetHandler, public EventSource {
         server(on(config.self, setup.fetch), setup.cache, objects.places, store, builder, scheduler,
                system, chance(setup.seed, config.self)),
         clock_(clock) {
-    system.add(ActorName::part_server, server);
+    system.add(ActorName::part_server, server, "part_server");
   }
 
   NetConfig config;

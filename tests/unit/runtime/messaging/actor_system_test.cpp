@@ -20,7 +20,7 @@ class Asker final
                        DataLane<>> {
  public:
   Asker(Scheduler& scheduler, Sender& sender, NodeId self)
-      : NodeActor(scheduler, sender, {self, ActorName::tracer}, "asker") {}
+      : NodeActor(scheduler, sender, {self, ActorName{2}}, "asker") {}
 
   SendOutcome ask(Address whom, uint32_t count) { return tell(whom, RequestLease{count}); }
   SendOutcome flush(Address whom, std::vector<std::byte> bytes) {
@@ -38,7 +38,7 @@ class Lender final
                        DataLane<Accepts<Letter<Flush>, 2, WhenFull::reject>>> {
  public:
   Lender(Scheduler& scheduler, Sender& sender, NodeId self)
-      : NodeActor(scheduler, sender, {self, ActorName::coordinator}, "lender") {}
+      : NodeActor(scheduler, sender, {self, ActorName{1}}, "lender") {}
 
   void on(const Letter<RequestLease>& request) {
     last_from = request.from;
@@ -100,9 +100,9 @@ struct Member final : NetHandler {
 struct Stage {
   Stage() {
     spdlog::set_level(spdlog::level::off);
-    first.system.add(ActorName::tracer, asker);
-    first.system.add(ActorName::coordinator, near);
-    second.system.add(ActorName::coordinator, far);
+    first.system.add(ActorName{2}, asker, "asker");
+    first.system.add(ActorName{1}, near, "near");
+    second.system.add(ActorName{1}, far, "far");
     near.start();
     far.start();
     run(seconds(1));
@@ -205,10 +205,10 @@ TEST_CASE("a message for no actor, or of a type that it does not accept, is coun
   const auto id = [&] { return stage.first.system.next_id(); };
   const Address from = stage.asker.address();
   for (const NodeId node : {here, there}) {
-    const Address nobody{node, ActorName::tally_shard}, unknown{node, static_cast<ActorName>(200)};
+    const Address nobody{node, ActorName{3}}, unknown{node, static_cast<ActorName>(200)};
     CHECK(stage.first.system.send(from, nobody, id(), RequestLease{1}) == SendOutcome::taken);
     CHECK(stage.first.system.send(from, unknown, id(), RequestLease{1}) == SendOutcome::taken);
-    const Address lender{node, ActorName::coordinator};
+    const Address lender{node, ActorName{1}};
     CHECK(stage.first.system.send(from, lender, id(), RoundOpened{1, 2}) == SendOutcome::taken);
   }
   stage.run(milliseconds(100));

@@ -126,6 +126,16 @@ TEST_CASE("hellos become rarer, up to a bound", "[runtime][link]") {
   CHECK(last_gap <= times.max_backoff);
 }
 
+TEST_CASE("a peer that greets again and again, as it does not hear us, keeps no link up",
+          "[runtime][link]") {
+  LinkState link = in(LinkPhase::up);
+  for (Nanoseconds now = 0; now <= 8 * times.beat; now += times.beat / 2) {
+    CHECK_FALSE(link.accept(first_life, now));
+    link.tick(now);
+  }
+  CHECK(link.phase() == LinkPhase::down);
+}
+
 TEST_CASE("a new incarnation of the peer is told from the same one", "[runtime][link]") {
   LinkState link = in(LinkPhase::up);
   CHECK_FALSE(link.accept(first_life, 1));

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/core/hash.hpp"
 #include "scenes/light/transport/readout.hpp"
 #include "tests/kit/encode_flush.hpp"
@@ -66,7 +67,7 @@ struct Stage : test::LoneNode {
   /// Sends a message as a node's tracer.
   void say(NodeId node, const Message& message, std::vector<std::byte> payload = {}) {
     Message copy = message;
-    REQUIRE(coordinator.accept({{node, ActorName::tracer},
+    REQUIRE(coordinator.accept({{node, role::tracer},
                                 {node, {100u + node.value}, ++questions},
                                 copy,
                                 Payload(test::share(std::move(payload)))}) == Offered::taken);

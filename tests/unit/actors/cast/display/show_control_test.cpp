@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "actors/cast/names/role.hpp"
 #include "runtime/messaging/actor_system.hpp"
 #include "tests/unit/actors/cast/process/equal_bits.hpp"
 #include "tests/unit/actors/cast/process/library_scene.hpp"
@@ -31,7 +32,7 @@ struct NotedSender final : Sender {
 };
 
 constexpr NodeId display_node{4};
-constexpr Address display{display_node, ActorName::display};
+constexpr Address display{display_node, role::display};
 
 struct Desk {
   Desk() : run(scene_of("smoke_tank", "", 1), 1, 1) {
@@ -52,7 +53,7 @@ struct Desk {
   LocalRun run;
   NotedSender sender;
   const RetryTimer timer{milliseconds(125), seconds(30)};
-  ShowControl control{display_node, run, timer, sender, {{9}, ActorName::coordinator}};
+  ShowControl control{display_node, run, timer, sender, {{9}, role::coordinator}};
 };
 
 }  // namespace
@@ -137,7 +138,7 @@ TEST_CASE("the end is repeated until the flux is on a disk, and again to a resta
 
 TEST_CASE("a run without a display sends no show messages", "[showing]") {
   Desk desk;
-  ShowControl none(std::nullopt, desk.run, desk.timer, desk.sender, {{9}, ActorName::coordinator});
+  ShowControl none(std::nullopt, desk.run, desk.timer, desk.sender, {{9}, role::coordinator});
   none.tell_end({3, ""}, 0);
   none.end_life(display_node);
   CHECK(desk.sender.sent.empty());

@@ -12,7 +12,6 @@
 #include "actors/cast/journal/flush_keeper.hpp"
 #include "actors/cast/node/controller_node.hpp"
 #include "actors/cast/process/in_process.hpp"
-#include "actors/cast/supervision/supervisor.hpp"
 #include "tests/unit/actors/cast/process/equal_bits.hpp"
 #include "tests/unit/actors/cast/process/library_scene.hpp"
 #include "tests/unit/runtime/actor/node_kit.hpp"
@@ -84,7 +83,7 @@ NodesOptions nodes_with(ActorName actor, NodeId node, Nanoseconds at) {
   fault.at = at;
   fault.lasts = seconds(1);
   fault.node = node;
-  fault.actor = actor_names[static_cast<size_t>(actor)];
+  fault.actor = role_name(actor);
   options.faults.push_back(fault);
   return options;
 }
@@ -158,7 +157,7 @@ TEST_CASE("the table of supervision in the README equals the program's", "[super
   REQUIRE(rows.size() == supervision_rules.size() + 2);  // headings and a separator line
   for (size_t i = 0; i < supervision_rules.size(); ++i) {
     const SupervisionRule& rule = supervision_rules[i];
-    std::string name = actor_names[static_cast<size_t>(rule.actor)];
+    std::string name = role_name(rule.actor);
     std::replace(name.begin(), name.end(), '_', ' ');
     const std::vector<std::string>& row = rows[i + 2];
     REQUIRE(row.size() >= 3);
@@ -169,21 +168,21 @@ TEST_CASE("the table of supervision in the README equals the program's", "[super
 }
 
 TEST_CASE("every actor with an address has a supervision rule", "[supervision]") {
-  for (size_t name = 1; name < actor_names.size(); ++name)
+  for (size_t name = 1; name < role_names.size(); ++name)
     CHECK(supervision_rule(static_cast<ActorName>(name)) != nullptr);
 }
 
 TEST_CASE("an actor is restarted as often as its rule says, and then the remedy applies",
           "[supervision]") {
   for (const SupervisionRule& rule : supervision_rules) {
-    INFO(actor_names[static_cast<size_t>(rule.actor)]);
+    INFO(role_name(rule.actor));
     Stage stage;
     bool run_ended = false;
     stage.supervisor.end_runs_by([&](const Verdict&) {
       run_ended = true;
       return false;
     });
-    stage.supervisor.watch(rule.actor, stage.actor);
+    watch(stage.supervisor, rule.actor, stage.actor);
     for (size_t i = 0; i < rule.restarts; ++i) {
       stage.fail();
       CHECK_FALSE(stage.actor.failed());
@@ -195,16 +194,16 @@ TEST_CASE("an actor is restarted as often as its rule says, and then the remedy 
     CHECK(stage.supervisor.verdict()->remedy == rule.then);
     CHECK(stage.supervisor.verdict()->text.find("it broke") != std::string::npos);
     CHECK(run_ended == (rule.then == Remedy::end_run));
-    const auto name = static_cast<size_t>(rule.actor);
-    CHECK(stage.supervisor.counters().failures[name] == rule.restarts + 1);
-    CHECK(stage.supervisor.counters().restarts[name] == rule.restarts);
+    const Supervisor::Counters& counted = stage.supervisor.counters(role_name(rule.actor));
+    CHECK(counted.failures == rule.restarts + 1);
+    CHECK(counted.restarts == rule.restarts);
   }
 }
 
 TEST_CASE("failures far apart in time are not counted together", "[supervision]") {
   Stage stage;
-  const SupervisionRule& rule = *supervision_rule(ActorName::display);
-  stage.supervisor.watch(rule.actor, stage.actor);
+  const SupervisionRule& rule = *supervision_rule(role::display);
+  watch(stage.supervisor, rule.actor, stage.actor);
   for (size_t i = 0; i < 3 * rule.restarts; ++i) {
     stage.fail();
     stage.node.advance(rule.within / static_cast<Nanoseconds>(rule.restarts) + 1);
@@ -215,8 +214,8 @@ TEST_CASE("failures far apart in time are not counted together", "[supervision]"
 
 TEST_CASE("a failed coordinator ends the run with an error, and its workers with it",
           "[supervision]") {
-  const std::string what = problem_of_endless_run(
-      nodes_with(ActorName::coordinator, controller_of_three, milliseconds(300)));
+  const std::string what =
+      problem_of_endless_run(nodes_with(role::coordinator, controller_of_three, milliseconds(300)));
   CHECK(what.find("controller: the coordinator has failed: a failure on purpose") == 0);
 }
 
@@ -234,7 +233,7 @@ TEST_CASE("a failed journal ends the run with an error, and its workers with it"
 
 TEST_CASE("a failed shard of the totals ends the run, as losing its node does",
           "[supervision][shards]") {
-  NodesOptions options = nodes_with(ActorName::tally_shard, {1}, seconds(1));
+  NodesOptions options = nodes_with(role::tally_shard, {1}, seconds(1));
   options.tally_shards = 3;
   const std::string what = problem_of_endless_run(options);
   CHECK(what.find("n1 is lost, and with it a shard of the totals") != std::string::npos);

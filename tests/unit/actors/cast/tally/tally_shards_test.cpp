@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 
+#include "actors/cast/names/role.hpp"
 #include "actors/cast/tally/shard_control.hpp"
 #include "actors/cast/tally/slice_sender.hpp"
 #include "actors/cast/tally/tally_shard.hpp"
@@ -33,12 +34,12 @@ struct Mail {
   std::vector<std::byte> payload;
 };
 
-constexpr Address coordinator{controller, ActorName::coordinator};
+constexpr Address coordinator{controller, role::coordinator};
 Address tracer_of(NodeId node) {
-  return {node, ActorName::tracer};
+  return {node, role::tracer};
 }
 Address shard_of(NodeId node) {
-  return {node, ActorName::tally_shard};
+  return {node, role::tally_shard};
 }
 
 /// A controller, workers of which some hold shards, and the wire between them, moved by the test.

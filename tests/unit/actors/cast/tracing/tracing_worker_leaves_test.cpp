@@ -2,6 +2,7 @@
 // other knows of it. Either may tell it of the end. The test plays both coordinators.
 #include <catch2/catch.hpp>
 
+#include "actors/cast/names/role.hpp"
 #include "actors/cast/tracing/tracing_worker.hpp"
 #include "actors/results/run/particle_worker.hpp"
 #include "tests/kit/lone_actor.hpp"
@@ -35,7 +36,7 @@ struct IdleWork final : LeasedWork {
 TracingWorkerConfig led_by_first() {
   TracingWorkerConfig config;
   config.self = own;
-  config.coordinators = {{first, ActorName::coordinator}, {second, ActorName::coordinator}};
+  config.coordinators = {{first, role::coordinator}, {second, role::coordinator}};
   config.rejoin = rejoin_after;
   return config;
 }
@@ -49,7 +50,7 @@ struct Led : test::LoneNode {
   ~Led() { end_fibers(); }
   void say(NodeId node, const MessageId& id, const Message& message) {
     Message copy = message;
-    REQUIRE(tracer.accept({{node, ActorName::coordinator}, id, copy, Payload()}) == Offered::taken);
+    REQUIRE(tracer.accept({{node, role::coordinator}, id, copy, Payload()}) == Offered::taken);
     settle();
   }
   /// Answers its last message to a node.

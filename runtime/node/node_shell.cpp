@@ -1,4 +1,4 @@
-#include "actors/cast/node/node_shell.hpp"
+#include "runtime/node/node_shell.hpp"
 
 #include "runtime/core/log.hpp"
 
@@ -12,24 +12,6 @@ constexpr Nanoseconds linger_time = milliseconds(100);
 /// Interval of checks for changes from outside: short for a user who presses Ctrl-C, and long
 /// enough that an idle node takes no CPU time from busy ones.
 constexpr Nanoseconds look_every = milliseconds(50);
-
-}  // namespace
-
-std::vector<Edge> edges_of(const Graph& graph) {
-  std::vector<Edge> edges;
-  for (const GraphLink& link : graph.links()) {
-    edges.push_back({NodeId{static_cast<uint16_t>(link.a)}, NodeId{static_cast<uint16_t>(link.b)}});
-  }
-  return edges;
-}
-
-namespace {
-
-NodeRoutes routes_of(const ShellConfig& config, const Graph& graph) {
-  const Vertex self = config.net.self.value;
-  if (config.routes != nullptr) return NodeRoutes(graph, *config.routes, self);
-  return NodeRoutes(graph, balanced_routes(graph), self);
-}
 
 }  // namespace
 
@@ -52,11 +34,10 @@ class NodeShell::Source final : public EventSource {
   Transport& transport_;
 };
 
-/// Delivers messages from the network to the node's actors, and computes its routes.
+/// Delivers messages from the network to the node's actors.
 class NodeShell::Handler final : public NetHandler {
  public:
-  explicit Handler(NodeShell& shell)
-      : shell_(shell), routes_(routes_of(shell.config_, shell.graph_)) {}
+  explicit Handler(NodeShell& shell) : shell_(shell) {}
 
   bool deliver(const Delivery& delivery) override {
     shell_.actors_.deliver(delivery);
@@ -76,26 +57,16 @@ class NodeShell::Handler final : public NetHandler {
     shell_.tell_newcomer_(neighbour);
     shell_.linger();
   }
-  NextHops reroute(std::span<const Edge> down) override {
-    failed_.clear();
-    for (const Edge& edge : down) failed_.push_back({edge.a.value, edge.b.value});
-    NextHops hops;
-    hops.next.reserve(shell_.graph_.vertices());
-    for (const std::optional<Vertex> next : routes_.around(failed_))
-      hops.next.push_back(next ? NodeId{static_cast<uint16_t>(*next)} : no_node);
-    return hops;
-  }
+  NextHops reroute(std::span<const Edge> down) override { return shell_.reroute_(down); }
 
  private:
   NodeShell& shell_;
-  NodeRoutes routes_;
-  std::vector<GraphLink> failed_;
 };
 
-NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
+NodeShell::NodeShell(const ShellConfig& config, Reroute reroute, const Clock& clock,
                      Transport& transport)
     : config_(config),
-      graph_(graph),
+      reroute_(std::move(reroute)),
       clock_(clock),
       transport_(transport),
       handler_(std::make_unique<Handler>(*this)),

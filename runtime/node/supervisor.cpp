@@ -1,4 +1,4 @@
-#include "actors/cast/supervision/supervisor.hpp"
+#include "runtime/node/supervisor.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,7 @@
 
 namespace luxodus {
 
-namespace {
-
-std::string what_of(const std::exception_ptr& why) {
+std::string text_of(const std::exception_ptr& why) {
   try {
     std::rethrow_exception(why);
   } catch (const std::exception& e) {
@@ -21,21 +19,7 @@ std::string what_of(const std::exception_ptr& why) {
   }
 }
 
-}  // namespace
-
 // ---- the rules ----------------------------------------------------------------------------------
-
-std::string spoken_name(ActorName actor) {
-  std::string name = actor_names[static_cast<size_t>(actor)];
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-const SupervisionRule* supervision_rule(ActorName actor) {
-  const auto at = std::find_if(supervision_rules.begin(), supervision_rules.end(),
-                               [&](const SupervisionRule& rule) { return rule.actor == actor; });
-  return at == supervision_rules.end() ? nullptr : &*at;
-}
 
 std::string restarts_text(const SupervisionRule& rule) {
   if (rule.restarts == 0) return "never";
@@ -48,63 +32,74 @@ const char* name_of(Remedy remedy) {
 
 // ---- the actor ----------------------------------------------------------------------------------
 
-void Supervisor::watch(ActorName name, Supervised& actor) {
-  LUX_CHECK(supervision_rule(name) != nullptr, "an actor without a rule for its failure");
-  Watched& watched = watched_[static_cast<size_t>(name)];
-  LUX_CHECK(watched.actor == nullptr, "two actors of one name");
-  watched.actor = &actor;
+void Supervisor::watch(const SupervisionRule& rule, ActorLabel label, Supervised& actor) {
+  LUX_CHECK(std::none_of(watched_.begin(), watched_.end(),
+                         [&](const Watched& watched) { return watched.label.name == label.name; }),
+            "two actors of one name");
+  LUX_CHECK(watched_.size() < limits::watched_actors, "more actors than a supervisor watches");
+  watched_.push_back({rule, std::move(label), &actor});
   actor.supervise_by(*this);
+}
+
+void Supervisor::condemn(Verdict verdict) {
+  log_error("actor=failed node={} text=\"{}\"", self_.value, verdict.text);
+  if (!verdict_) verdict_ = std::move(verdict);
 }
 
 void Supervisor::on_failure(Supervised& actor, const std::exception_ptr& why) noexcept {
   const auto at = std::find_if(watched_.begin(), watched_.end(),
                                [&](const Watched& watched) { return watched.actor == &actor; });
-  const auto name = static_cast<ActorName>(at - watched_.begin());
+  const auto number = static_cast<size_t>(at - watched_.begin());
   // An actor fails only once until that is handled, so there is room for all.
-  LUX_CHECK(offer(ActorFailed{name, what_of(why)}) == Offered::taken, "a failure for each actor");
+  LUX_CHECK(offer(ActorFailed{number, text_of(why)}) == Offered::taken, "a failure for each actor");
 }
 
 /// Whether it has been restarted few enough times recently; then counts another restart.
-bool Supervisor::may_restart(Watched& watched, const SupervisionRule& rule) {
+bool Supervisor::may_restart(Watched& watched) {
   const Nanoseconds now = scheduler().clock().now();
-  while (!watched.restarted.empty() && now - watched.restarted.front() >= rule.within)
+  while (!watched.restarted.empty() && now - watched.restarted.front() >= watched.rule.within)
     watched.restarted.pop_front();
-  if (watched.restarted.size() >= rule.restarts) return false;
+  if (watched.restarted.size() >= watched.rule.restarts) return false;
   watched.restarted.push_back(now);
   return true;
 }
 
 void Supervisor::on(const ActorFailed& failed) {
-  const auto name = static_cast<size_t>(failed.actor);
-  Watched& watched = watched_[name];
-  const SupervisionRule& rule = *supervision_rule(failed.actor);
-  ++counters_.failures[name];
-  if (may_restart(watched, rule)) {
-    ++counters_.restarts[name];
+  Watched& watched = watched_.at(failed.watched);
+  const SupervisionRule& rule = watched.rule;
+  ++watched.counters.failures;
+  if (may_restart(watched)) {
+    ++watched.counters.restarts;
     log_error("actor=failed node={} actor={} text=\"{}: it begins anew\"", self_.value,
-              actor_names[name], failed.what);
+              watched.label.name, failed.what);
     return watched.actor->begin_anew();
   }
   const std::string often =
       rule.restarts == 0 ? "" : fmt::format(" more than {}", restarts_text(rule));
   const Verdict verdict{
-      failed.actor, rule.then,
-      fmt::format("the {} has failed{}: {}", spoken_name(failed.actor), often, failed.what)};
-  log_error("actor=failed node={} actor={} text=\"{}: {}\"", self_.value, actor_names[name],
+      rule.actor, rule.then,
+      fmt::format("the {} has failed{}: {}", watched.label.spoken, often, failed.what)};
+  log_error("actor=failed node={} actor={} text=\"{}: {}\"", self_.value, watched.label.name,
             verdict.text, name_of(rule.then));
   if (verdict_) return;
   if (rule.then == Remedy::end_run && end_run_ && end_run_(verdict)) return;
   verdict_ = verdict;
 }
 
+const Supervisor::Counters& Supervisor::counters(const std::string& name) const {
+  const auto at = std::find_if(watched_.begin(), watched_.end(),
+                               [&](const Watched& watched) { return watched.label.name == name; });
+  LUX_CHECK(at != watched_.end(), "counters of an actor that is not watched");
+  return at->counters;
+}
+
 void Supervisor::add_metrics(Metrics& metrics) const {
-  for (size_t name = 0; name < watched_.size(); ++name) {
-    if (watched_[name].actor == nullptr) continue;
-    const std::string actor = fmt::format("actor=\"{}\"", actor_names[name]);
+  for (const Watched& watched : watched_) {
+    const std::string actor = fmt::format("actor=\"{}\"", watched.label.name);
     metrics.add_counter({"actor_failures", "", "Exceptions that left an actor.", actor},
-                        counters_.failures[name]);
+                        watched.counters.failures);
     metrics.add_counter({"actor_restarts", "", "Times that an actor began anew.", actor},
-                        counters_.restarts[name]);
+                        watched.counters.restarts);
   }
 }
 
@@ -123,9 +118,8 @@ void Supervisor::rehearse(const FaultPlan& plan) {
 void Supervisor::fail_on_purpose() {
   const Fault fault = std::move(rehearsed_.back());
   rehearsed_.pop_back();
-  for (size_t name = 0; name < watched_.size(); ++name)
-    if (watched_[name].actor != nullptr && fault.actor == actor_names[name])
-      watched_[name].actor->fail_next();
+  for (const Watched& watched : watched_)
+    if (fault.actor == watched.label.name) watched.actor->fail_next();
   if (!rehearsed_.empty())
     scheduler().timers().set(began_ + rehearsed_.back().at, [this] { fail_on_purpose(); });
 }

@@ -1,36 +1,32 @@
 // The common parts of a node: clock, network, scheduler, its actor system, and their supervisor.
-// Its actors make it a worker or the controller. It computes the routes. It is run by one OS
-// thread, or by a simulation turn by turn. Thread rule: made and run on one thread; wake() from
-// any.
+// The actors that are added make it what it is. It is run by one OS thread, or by a simulation turn
+// by turn. Thread rule: made and run on one thread; wake() from any.
 #pragma once
 
 #include <functional>
-#include <vector>
+#include <memory>
+#include <span>
 
-#include "actors/cast/supervision/supervisor.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/messaging/actor_system.hpp"
-#include "topology/node_routes.hpp"
+#include "runtime/node/supervisor.hpp"
 
 namespace luxodus {
 
-/// All links of a graph.
-std::vector<Edge> edges_of(const Graph& graph);
+/// Next hops without these links: see NetHandler::reroute.
+using Reroute = std::function<NextHops(std::span<const Edge> down)>;
 
 struct ShellConfig {
   NetConfig net;
   SchedulerLimits scheduler;
   size_t max_payload_bytes = 1 << 30;       // of messages that wait in mailboxes
   Nanoseconds shutdown_phase = seconds(5);  // for each phase of its shutdown
-  /// Routes of the whole graph, if computed once for all nodes of the process.
-  const Routes* routes = nullptr;
 };
 
 class NodeShell {
  public:
-  /// Requires: graph and transport outlive this.
-  NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
-            Transport& transport);
+  /// Requires: clock and transport outlive this.
+  NodeShell(const ShellConfig& config, Reroute reroute, const Clock& clock, Transport& transport);
   ~NodeShell();
 
   Scheduler& scheduler() { return scheduler_; }
@@ -39,14 +35,6 @@ class NodeShell {
   ActorSystem& actors() { return actors_; }
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
-
-  /// Adds an actor of this node, which others reach by its name and the supervisor watches.
-  /// Requires: the actor outlives the run.
-  template <class NodeActorType>
-  void add(ActorName name, NodeActorType& actor) {
-    actors_.add(name, actor);
-    supervisor_.watch(name, actor);
-  }
 
   /// `ended` is called after every turn and returns whether this node's work is over: then the node
   /// leaves, fibers end, and neighbours are told. It also leaves when its supervisor has a verdict.
@@ -73,7 +61,7 @@ class NodeShell {
   bool may_leave() const;
 
   const ShellConfig config_;
-  const Graph& graph_;
+  const Reroute reroute_;
   const Clock& clock_;
   Transport& transport_;
   std::unique_ptr<Handler> handler_;
