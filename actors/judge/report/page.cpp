@@ -39,7 +39,7 @@ constexpr std::array<Section, 17> sections{
 constexpr size_t numbered = 14;  // later sections are appendices
 
 /// Height of the drawing on the cover.
-constexpr double cover_mm = 88;
+constexpr double cover_mm = 76;
 
 constexpr std::array<const char*, 5> notices{"notice.calculation", "notice.secondary",
                                              "notice.legibility", "notice.authority",

@@ -165,7 +165,10 @@ std::string sheet_html(const PageParts& parts, const LuminaireType& type) {
                     (body.empty() ? paragraph(t("sheet.no_body"), "note") : body) +
                     (polar.empty() ? paragraph(t("sheet.no_curve"), "note") : polar) + "</div>" +
                     sheet_facts(parts, type, sheet) + "</div>\n";
-  if (!sheet.spacing.empty()) out += spacing_table(t, sheet);
+  if (!sheet.spacing.empty())
+    out += spacing_table(t, sheet);
+  else if (type.emergency())
+    out += paragraph(t("sheet.no_spacing"), "note");
   return out + "</section>\n";
 }
 

@@ -212,7 +212,7 @@ std::string clauses_appendix(const PageParts& parts) {
          table(t,
                {"column.rule", "column.edition", "column.clause", "column.asks", "column.source",
                 "column.status", "column.verdicts"},
-               {6, 21, 8, 27, 15, 11, 12}, rows);
+               {6, 23, 8, 28, 15, 9, 11}, rows, "dense");
 }
 
 Provenance provenance_of(const AssessmentRecord& a) {

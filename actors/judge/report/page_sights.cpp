@@ -326,7 +326,7 @@ std::string signs_appendix(const PageParts& parts) {
   std::string out = paragraph(t("sights.by_sign"));
   for (const double height : heights)
     out += subheading(t.say("sights.eyes_at", t.fixed(height))) + signs_table(parts, height);
-  const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm / 2 - 3, 70});
+  const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm / 3 - 4, 60});
   out += subheading(t.say("sights.maps", t.fixed(heights.front()))) + "<div class=\"maps\">\n";
   const auto& signs = parts.a.signs;
   for (size_t i = 0; i < signs.size(); ++i) {

@@ -51,7 +51,7 @@ dl { margin: 0; }
 .contents .t { flex: 1; }
 table { border-collapse: collapse; width: 100%; table-layout: fixed; font-size: 0.8rem;
   line-height: 1.3; margin: 0.5rem 0 0.8rem; }
-th, td { border-bottom: 1px solid var(--line); padding: 0.28rem 0.4rem; text-align: left;
+th, td { border-bottom: 1px solid var(--line); padding: 0.2rem 0.4rem; text-align: left;
   vertical-align: top; overflow-wrap: break-word; hyphens: auto; }
 thead th { border-bottom: 1.5px solid var(--ink); vertical-align: bottom; color: var(--soft);
   font-weight: bold; font-size: 0.94em; hyphens: manual; overflow-wrap: normal; }
@@ -59,10 +59,11 @@ thead { display: table-header-group; }
 tr { break-inside: avoid; }
 td.n, th.n { text-align: right; }
 td.c, th.c { text-align: center; }
+table.dense { font-size: 0.72rem; }
+table.dense td { padding: 0.1rem 0.3rem; }
 table.spacing th, table.spacing td { padding: 0.07rem 0.25rem; font-size: 0.72rem; }
 div.product table.facts { font-size: 0.74rem; margin: 0; }
 div.product table.facts th, div.product table.facts td { padding: 0.12rem 0.3rem; }
-nav { break-before: page; }
 
 tr.group th { background: var(--pale); padding-top: 0.45rem; break-after: avoid; }
 tr.lead td { border-bottom: 0; }
@@ -88,7 +89,7 @@ div.product svg { display: block; }
 figcaption { font-size: 0.8rem; color: var(--soft); margin-top: 0.3rem; }
 figcaption b { color: var(--ink); }
 .pictures, .maps { display: grid; grid-template-columns: 1fr 1fr; gap: 0.2rem 1.2rem; }
-.pictures { grid-template-columns: 1fr 1fr 1fr; }
+.pictures, .maps { grid-template-columns: 1fr 1fr 1fr; }
 .pictures figure, .maps figure { margin: 0.3rem 0 0; }
 .maps svg { width: 100%; border: 1px solid var(--line); }
 @media print {
