@@ -109,7 +109,7 @@ TEST_CASE("assess states the judged state before any verdict, and never that a b
   CHECK(has(outcome.out, "1 of 1 lit: em 1"));
   CHECK(has(outcome.out, "extinction 0.3/m at 633 nm"));
   CHECK(has(outcome.out, "EN 1838:2024"));
-  CHECK(has(outcome.out, "eyes are not yet adapted"));
+  CHECK(has(outcome.out, "pupils and retinas have not yet followed"));
   CHECK(outcome.out.find("not assessed") < outcome.out.find("written to"));
   CHECK_FALSE(has(outcome.out, "checks pass"));
   CHECK_FALSE(has(outcome.out, "complies"));

@@ -60,7 +60,8 @@ TEST_CASE("the guide's room is judged, and its state is printed first", "[progra
   REQUIRE(run.code == 0);
   CHECK(
       run.out.starts_with("\"fire\", emergency operation, 60 s after the failure, in smoke of "
-                          "0.2/m to 0.8/m, by EN 1838:2024: "));
+                          "0.2/m to 0.8/m ("));
+  CHECK(run.out.find(" on lines of sight), by EN 1838:2024: ") < run.out.find("judged state"));
   CHECK(run.out.find("judged state") < run.out.find("lit: "));
   CHECK(run.out.find("EN 1838:2024") != std::string::npos);
   CHECK(run.out.find("complies") == std::string::npos);

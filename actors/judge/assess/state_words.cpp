@@ -83,11 +83,13 @@ std::string judged_words(const StateRecord& state) {
   if (!state.smoke) return out + ", in clear air";
   const ExtinctionRecord& extinction = state.smoke->extinction;
   if (extinction.max == 0) return out + english()("headline.smoke_elsewhere");
-  out += ", in smoke of " + range_words(extinction.min, extinction.max);
+  const std::string all = range_words(extinction.min, extinction.max);
+  out += ", in smoke of " + all;
   const auto& lines = state.smoke->on_lines;
   if (!lines) return out;
   if (lines->max == 0) return out + english()("headline.no_smoke_on_lines");
-  return out + english().say("headline.smoke_on_lines", range_words(lines->min, lines->max));
+  const std::string on_lines = range_words(lines->min, lines->max);
+  return on_lines == all ? out : out + english().say("headline.smoke_on_lines", on_lines);
 }
 
 }  // namespace

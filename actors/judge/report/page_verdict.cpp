@@ -19,11 +19,13 @@ std::string judged_text(const Texts& t, const StateRecord& state) {
   if (!state.smoke) return out + t("headline.clear");
   const ExtinctionRecord& all = state.smoke->extinction;
   if (all.max == 0) return out + t("headline.smoke_elsewhere");
-  out += t.say("headline.smoke", range_text(t, all.min, all.max));
+  const std::string range = range_text(t, all.min, all.max);
+  out += t.say("headline.smoke", range);
   const auto& lines = state.smoke->on_lines;
   if (!lines) return out;
   if (lines->max == 0) return out + t("headline.no_smoke_on_lines");
-  return out + t.say("headline.smoke_on_lines", range_text(t, lines->min, lines->max));
+  const std::string on_lines = range_text(t, lines->min, lines->max);
+  return on_lines == range ? out : out + t.say("headline.smoke_on_lines", on_lines);
 }
 
 }  // namespace

@@ -126,6 +126,8 @@ TEST_CASE("the first sentence says what of the smoke lies on lines of sight", "[
   CHECK(first_sentence(record, "").find(
             "in smoke of 0.2/m to 3/m (0.25/m to 0.5/m on lines of sight), by") !=
         std::string::npos);
+  record.state.smoke->on_lines = SmokeOnLinesRecord{0.2, 3, 7};
+  CHECK(first_sentence(record, "").find("in smoke of 0.2/m to 3/m, by") != std::string::npos);
   record.state.smoke->on_lines = SmokeOnLinesRecord{0, 0, 7};
   CHECK(first_sentence(record, "").find("to 3/m, but none on any line of sight, by") !=
         std::string::npos);
