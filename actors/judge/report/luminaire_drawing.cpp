@@ -111,14 +111,11 @@ std::string polar_grid(const PolarFrame& frame, bool whole, const Texts& texts) 
 
 std::string polar_curve(const PolarFrame& frame, const SheetRecord& sheet,
                         const std::vector<double>& curve, const char* style) {
-  std::string path;
+  std::vector<glm::dvec2> points;
   const auto middle = static_cast<double>(curve.size() / 2);
-  for (size_t i = 0; i < curve.size(); ++i) {
-    const glm::dvec2 p =
-        frame.at((static_cast<double>(i) - middle) * sheet.curve_step_deg, curve[i]);
-    path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", p.x, p.y);
-  }
-  return "<path class=\"curve\" d=\"" + path + "\" " + style + "/>\n";
+  for (size_t i = 0; i < curve.size(); ++i)
+    points.push_back(frame.at((static_cast<double>(i) - middle) * sheet.curve_step_deg, curve[i]));
+  return "<path class=\"curve\" d=\"" + path_of(points, false) + "\" " + style + "/>\n";
 }
 
 std::string polar_key(const Texts& texts) {
@@ -220,12 +217,9 @@ std::string body_svg(const LuminaireRecord& luminaire, const SheetRecord& sheet,
   const glm::dvec2 centre(body_width_mm / 2, (body_height_mm - 5) / 2);
   std::string out = "<g stroke=\"#333\" stroke-width=\"0.25\" stroke-linejoin=\"round\">\n";
   for (const Face& face : faces) {
-    std::string path;
-    for (const glm::dvec3& p : face.outline) {
-      const glm::dvec2 at = centre + (seen(p) - middle) * scale;
-      path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", at.x, at.y);
-    }
-    out += "<path d=\"" + path + "Z\" fill=\"" + face.fill + "\"/>\n";
+    std::vector<glm::dvec2> points;
+    for (const glm::dvec3& p : face.outline) points.push_back(centre + (seen(p) - middle) * scale);
+    out += "<path d=\"" + path_of(points, true) + "\" fill=\"" + face.fill + "\"/>\n";
   }
   return drawing(
       body_width_mm, body_height_mm,

@@ -74,12 +74,9 @@ class Projection {
 
 std::string outline(const Projection& to, const std::vector<glm::dvec2>& points, size_t level,
                     double above) {
-  std::string path;
-  for (const glm::dvec2& p : points) {
-    const glm::dvec2 at = to.at(p, level, above);
-    path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", at.x, at.y);
-  }
-  return path + "Z";
+  std::vector<glm::dvec2> on_paper;
+  for (const glm::dvec2& p : points) on_paper.push_back(to.at(p, level, above));
+  return path_of(on_paper, true);
 }
 
 /// Pieces of floor in the colour of their light; those without any are in walls or outside.

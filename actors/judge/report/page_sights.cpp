@@ -131,6 +131,12 @@ std::string eyes_table(const PageParts& parts) {
                {35, 13, 13, 13, 13, 13}, rows);
 }
 
+/// A difference of chromaticity by what can be noticed, some 0.004: less is 0, and not the rest of
+/// a rounding. NaN stays.
+double told(double chromatic_difference) {
+  return std::round(1e4 * chromatic_difference) / 1e4;
+}
+
 std::string observers_table(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
@@ -140,7 +146,7 @@ std::string observers_table(const PageParts& parts) {
             cell(t.subject(sight.from)) + cell(sight.sign) + number_cell(t, sight.distance_m, "m") +
             (sight.seen ? number_cell(t, sight.seen->look.reading_level.value) +
                               number_cell(t, sight.seen->margin.read_within_m, "m") +
-                              number_cell(t, sight.seen->look.chromatic_difference)
+                              number_cell(t, told(sight.seen->look.chromatic_difference))
                         : no_number_cell() + no_number_cell() + no_number_cell()) +
             "</tr>\n";
   }

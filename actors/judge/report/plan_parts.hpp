@@ -52,10 +52,9 @@ std::string isolux_colour(double lux);
 
 template <class Point>
 std::string path_of(const std::vector<Point>& points, const Sheet& sheet, bool closed) {
-  std::string out;
-  for (const Point& p : points)
-    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", sheet.x(p.x), sheet.y(p.y));
-  return out + (closed ? "Z" : "");
+  std::vector<glm::dvec2> on_paper;
+  for (const Point& p : points) on_paper.emplace_back(sheet.x(p.x), sheet.y(p.y));
+  return path_of(on_paper, closed);
 }
 
 /// Keeps labels off a line.

@@ -13,6 +13,7 @@
 
 #include "actors/judge/report/plan_parts.hpp"
 #include "actors/results/formats/contour_lines.hpp"
+#include "scenes/light/geometry/polygon.hpp"
 
 namespace luxodus {
 
@@ -62,20 +63,9 @@ Outlines outlines_of(const RouteRecord& route) {
   return out;
 }
 
-/// Even-odd rule; points on an edge may count as either.
-bool is_inside(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
-  bool inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const glm::dvec2 &a = outline[i], &b = outline[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y))
-      inside = !inside;
-  }
-  return inside;
-}
-
 bool is_inside(const Outlines& outlines, const glm::dvec2& p) {
   return std::any_of(outlines.begin(), outlines.end(),
-                     [&](const auto& outline) { return is_inside(outline, p); });
+                     [&](const auto& outline) { return is_within(outline, p); });
 }
 
 /// A map within outlines, NaN farther outside.

@@ -28,6 +28,13 @@ double round_scale(double scale) {
 
 }  // namespace
 
+std::string path_of(const std::vector<glm::dvec2>& points_mm, bool closed) {
+  std::string out;
+  for (const glm::dvec2& p : points_mm)
+    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", p.x, p.y);
+  return out + (closed ? "Z" : "");
+}
+
 std::string text_at(double x, double y, const std::string& text, const char* more, double size) {
   return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\" {}>{}</text>\n", x, y,
                      size, more, xml_escape(text));

@@ -18,6 +18,9 @@ std::string text_at(double x, double y, const std::string& text, const char* mor
 /// Approximate width of a text on paper: letters of these fonts are about half as wide as high.
 double text_width_mm(const std::string& text, double size_mm);
 
+/// The data of an SVG path through points on paper [mm].
+std::string path_of(const std::vector<glm::dvec2>& points_mm, bool closed);
+
 /// A symbol and its meaning. The symbol is drawn around (0, 0), the middle of its left edge.
 struct LegendEntry {
   std::string symbol;
