@@ -135,16 +135,13 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
 /// temperatures. Flames alone stay orange.
 constexpr double min_white_kelvin = 2500, max_white_kelvin = 10000, max_white_duv = 0.02;
 
-/// Changes colours only: each pixel keeps its luminance.
 template <class Shown>
 void recolour(XyzPicture& picture, const Shown& shown) {
   for (size_t i = 0; i < picture.pixels(); ++i) {
     float* p = &picture.xyz[3 * i];
-    const Xyz colour{static_cast<double>(p[0]), static_cast<double>(p[1]),
-                     static_cast<double>(p[2])};
-    const Xyz seen = shown(colour);
-    const double scale = seen[1] > 0 ? colour[1] / seen[1] : 0;
-    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c] * scale);
+    const Xyz seen =
+        shown({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c]);
   }
 }
 
@@ -164,7 +161,9 @@ void balance_by_lamps(const CompiledScene& scene, XyzPicture& picture) {
       white.duv > max_white_duv) {
     return;
   }
-  recolour(picture, [&](const Xyz& colour) { return adapt_white(colour, light, d65_white); });
+  recolour(picture, [&](const Xyz& colour) {
+    return with_luminance(adapt_white(colour, light, d65_white), colour[1]);
+  });
 }
 
 /// A picture of another size than the traced one, such as a first one, is balanced by the same
@@ -172,8 +171,8 @@ void balance_by_lamps(const CompiledScene& scene, XyzPicture& picture) {
 XyzPicture white_balanced(const CompiledScene& scene, const ShownView& view, XyzPicture picture) {
   if (view.white == PictureWhite::lamps) balance_by_lamps(scene, picture);
   if (view.white != PictureWhite::adapted) return picture;
-  if (const auto light = light_on_surfaces(view.traced)) {
-    const AdaptedWhite white(*light, view.human.monitor.white_cd_m2);
+  if (view.surfaces) {
+    const AdaptedWhite white(*view.surfaces, view.human.monitor.white_cd_m2);
     recolour(picture, [&](const Xyz& colour) { return white.on_monitor(colour); });
   }
   return picture;
@@ -183,13 +182,12 @@ XyzPicture white_balanced(const CompiledScene& scene, const ShownView& view, Xyz
 std::string white_text(const ShownView& view) {
   if (view.white == PictureWhite::d65) return "D65";
   if (view.white == PictureWhite::lamps) return "light of all sources";
-  const auto light = light_on_surfaces(view.traced);
-  if (!light) return "D65: no lit surface is in view";
-  const ColourTemperature of = correlated_colour_temperature(*light);
+  if (!view.surfaces) return "D65: no lit surface is in view";
+  const ColourTemperature of = correlated_colour_temperature(*view.surfaces);
   return fmt::format(
       "light on the surfaces in view, {:.0f} K, {:.3g} cd/m2, as far as an eye adapts to it "
       "(Fairchild 1991)",
-      of.kelvin, (*light)[1]);
+      of.kelvin, (*view.surfaces)[1]);
 }
 
 PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::string& description) {
@@ -328,6 +326,7 @@ ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOp
       human(options.human),
       white(options.white),
       exposure(options.exposure) {
+  if (white == PictureWhite::adapted) surfaces = light_on_surfaces(traced);
   if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
   raw = options.raw || !filtered;
 }

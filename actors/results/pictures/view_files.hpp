@@ -8,6 +8,7 @@
 
 #include "actors/results/pictures/pictures.hpp"
 #include "scenes/formats/images/write_image.hpp"
+#include "scenes/light/optics/chromaticity.hpp"
 
 namespace luxodus {
 
@@ -28,6 +29,7 @@ struct ShownView {
   bool raw;
   HumanTone human;
   PictureWhite white;
+  std::optional<Xyz> surfaces;       // the light on them, if that is white; none: none is lit
   std::optional<Exposure> exposure;  // of PNG files; nothing: the picture's own
 };
 

@@ -78,6 +78,11 @@ Xyz adapt_white(const Xyz& colour, const Xyz& from, const Xyz& to) {
   return product(xyz_from_cones, cones);
 }
 
+Xyz with_luminance(const Xyz& colour, double luminance) {
+  const double scale = colour[1] > 0 ? luminance / colour[1] : 0;
+  return {colour[0] * scale, colour[1] * scale, colour[2] * scale};
+}
+
 ColourTemperature correlated_colour_temperature(const Xyz& colour) {
   const Uv p = uv_1960(colour);
   // In mired (1e6 / K), steps along the locus are nearly even. A coarse scan finds the right

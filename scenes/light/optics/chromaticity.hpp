@@ -30,6 +30,9 @@ uint8_t srgb_byte(double linear);
 /// linear form (Lam 1985; ICC.1:2010 annex E).
 Xyz adapt_white(const Xyz& colour, const Xyz& from, const Xyz& to);
 
+/// The colour at another luminance; black stays black.
+Xyz with_luminance(const Xyz& colour, double luminance);
+
 /// A chromaticity relative to the Planckian locus.
 struct ColourTemperature {
   double kelvin = 0;  // of the nearest black body in CIE 1960 (u, v)

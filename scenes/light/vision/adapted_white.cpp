@@ -12,6 +12,8 @@ const glm::dmat3 cones_of_xyz =
     glm::transpose(glm::dmat3(glm::dvec3(0.38971, 0.68898, -0.07868),
                               glm::dvec3(-0.22981, 1.18340, 0.04641), glm::dvec3(0, 0, 1)));
 
+const glm::dmat3 xyz_of_cones = glm::inverse(cones_of_xyz);
+
 glm::dvec3 vector_of(const Xyz& xyz) {
   return {xyz[0], xyz[1], xyz[2]};
 }
@@ -40,10 +42,8 @@ AdaptedWhite::AdaptedWhite(const Xyz& light, double monitor_cd_m2) {
 
 Xyz AdaptedWhite::on_monitor(const Xyz& colour) const {
   const glm::dvec3 cones = cones_of_xyz * vector_of(colour);
-  const glm::dvec3 seen =
-      glm::inverse(cones_of_xyz) * (cones * glm::dvec3(factor_[0], factor_[1], factor_[2]));
-  const double scale = seen.y > 0 ? colour[1] / seen.y : 0;
-  return {seen.x * scale, seen.y * scale, seen.z * scale};
+  const glm::dvec3 seen = xyz_of_cones * (cones * glm::dvec3(factor_[0], factor_[1], factor_[2]));
+  return with_luminance({seen.x, seen.y, seen.z}, colour[1]);
 }
 
 }  // namespace luxodus
