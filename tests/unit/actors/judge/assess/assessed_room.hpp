@@ -72,6 +72,40 @@ inline const Check& check_of(const Assessment& a, RuleId id) {
   return a.checks.front();
 }
 
+/// Ten steps of 0.17 m by 0.28 m from x = 4 to 6.8 m in a black room, and the landing at their end.
+/// `underside`: of the steps, as the scene file names it.
+inline std::string stair_room(const std::string& underside) {
+  return R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, -2, 0]
+high = [12, 2, 5]
+material = "black5"
+[[object]]
+name = "steps"
+shape = "stairs"
+material = "grey50"
+steps = 10
+rise = 0.17
+going = 0.28
+width = 4
+translate = [4, -2, 0]
+underside = ")" +
+         underside +
+         R"("
+[[object]]
+name = "landing"
+shape = "box"
+low = [6.8, -2, 0]
+high = [12, 2, 1.7]
+material = "grey50"
+[[scenario]]
+name = "failed"
+operation = "emergency"
+)";
+}
+
 /// A point source of 1000 lm, whose emergency flux of 500 lm is the rated one. `position` in the
 /// scene file's syntax.
 inline std::string rated_lamp(const std::string& name, const std::string& position) {

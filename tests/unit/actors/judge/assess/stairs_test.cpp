@@ -6,38 +6,7 @@ namespace luxodus {
 namespace {
 
 using test::check_of;
-
-/// Ten steps of 0.17 m by 0.28 m from x = 4 to 6.8 m, and the landing that they end at.
-std::string stair(const char* underside) {
-  return fmt::format(R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, -2, 0]
-high = [12, 2, 5]
-material = "black5"
-[[object]]
-name = "steps"
-shape = "stairs"
-material = "grey50"
-steps = 10
-rise = 0.17
-going = 0.28
-width = 4
-underside = "{}"
-translate = [4, -2, 0]
-[[object]]
-name = "landing"
-shape = "box"
-low = [6.8, -2, 0]
-high = [12, 2, 1.7]
-material = "grey50"
-[[scenario]]
-name = "failed"
-operation = "emergency"
-)",
-                     underside);
-}
+using test::stair_room;
 
 std::string lamp(double x, double z) {
   return test::rated_lamp(fmt::format("lamp at {}", x), fmt::format("[{}, 0, {}]", x, z));
@@ -68,7 +37,7 @@ TEST_CASE("points of a flight stand on its treads, wherever its line is drawn",
           "[1, 0, 0], [3.72, 0, 0], [6.52, 0, 1.7], [11, 0, 1.7]",  // along the noses
           "[11, 0, 1.7], [6.8, 0, 1.7], [4, 0, 0], [1, 0, 0]"}) {   // down
       INFO(underside << ": " << path);
-      const std::string text = stair(underside) + lamp(3, 4.8) + lamp(8, 4.8) + way(path);
+      const std::string text = stair_room(underside) + lamp(3, 4.8) + lamp(8, 4.8) + way(path);
       const Assessment a = assessed(text, "en1838-2013");
       const Check& least = check_of(a, RuleId::E1);
       CHECK(*least.value > 1);
@@ -88,7 +57,8 @@ TEST_CASE("points of a route in bodies are left out and counted", "[assess][stai
       "[[object]]\nname = \"pillar\"\nshape = \"box\"\nlow = [8.02, -0.6, 1.7]\nhigh = [8.62, "
       "-0.1, 5]\nmaterial = \"grey50\"\n";
   const std::string path = "[7, 0, 1.7], [11, 0, 1.7]";
-  const std::string text = stair("solid") + lamp(7.5, 4.8) + lamp(10, 4.8) + way(path.c_str(), 1.6);
+  const std::string text =
+      stair_room("solid") + lamp(7.5, 4.8) + lamp(10, 4.8) + way(path.c_str(), 1.6);
   const Assessment bare = assessed(text, "en1838-2024"),
                    with = assessed(text + pillar, "en1838-2024");
   CHECK_FALSE(has(check_of(bare, RuleId::E5).conditions, RemarkId::points_in_bodies));
@@ -101,7 +71,8 @@ TEST_CASE("points of a route in bodies are left out and counted", "[assess][stai
 
 TEST_CASE("each tread of a flight needs direct light from some luminaire", "[assess][stairs]") {
   const std::string path = "[1, 0, 0], [4, 0, 0], [6.8, 0, 1.7], [11, 0, 1.7]";
-  const Assessment lit = assessed(stair("solid") + lamp(5, 4.8) + way(path.c_str()), "en1838-2013");
+  const Assessment lit =
+      assessed(stair_room("solid") + lamp(5, 4.8) + way(path.c_str()), "en1838-2013");
   const Check& passes = check_of(lit, RuleId::E12s);
   CHECK(passes.subject == Subject{SubjectKind::stairs, "way, flight 1"});
   CHECK(passes.verdict == CheckVerdict::pass);
@@ -111,15 +82,15 @@ TEST_CASE("each tread of a flight needs direct light from some luminaire", "[ass
       "[[object]]\nname = \"apron\"\nshape = \"box\"\nlow = [6.2, -2, 3.6]\nhigh = [6.3, 2, "
       "5]\nmaterial = \"grey50\"\n";
   const Assessment dark =
-      assessed(stair("solid") + wall + lamp(9, 4.8) + way(path.c_str()), "en1838-2013");
+      assessed(stair_room("solid") + wall + lamp(9, 4.8) + way(path.c_str()), "en1838-2013");
   const Check& fails = check_of(dark, RuleId::E12s);
   CHECK(fails.verdict == CheckVerdict::fail);
   CHECK(*fails.value == 0);
   REQUIRE(fails.worst);
   CHECK(fails.worst->x < 6.2);
   // Level ground has no treads.
-  const Assessment level =
-      assessed(stair("solid") + lamp(9, 4.8) + way("[7, 0, 1.7], [11, 0, 1.7]"), "en1838-2013");
+  const Assessment level = assessed(
+      stair_room("solid") + lamp(9, 4.8) + way("[7, 0, 1.7], [11, 0, 1.7]"), "en1838-2013");
   CHECK(std::none_of(level.checks.begin(), level.checks.end(),
                      [](const Check& check) { return check.rule.id == RuleId::E12s; }));
 }

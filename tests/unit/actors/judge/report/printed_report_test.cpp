@@ -197,41 +197,16 @@ operation = "emergency"
 }
 
 AssessmentRecord stair() {
-  const std::string text = R"(
+  return recorded(stair_room("solid") + R"(
 [project]
 name = "Stair"
-[[object]]
-name = "room"
-shape = "room"
-low = [0, -2, 0]
-high = [12, 2, 5]
-material = "black5"
-[[object]]
-name = "steps"
-shape = "stairs"
-material = "grey50"
-steps = 10
-rise = 0.17
-going = 0.28
-width = 4
-underside = "solid"
-translate = [4, -2, 0]
-[[object]]
-name = "landing"
-shape = "box"
-low = [6.8, -2, 0]
-high = [12, 2, 1.7]
-material = "grey50"
 [[route]]
 name = "way"
 path = [[1, 0, 0], [4, 0, 0], [6.8, 0, 1.7], [11, 0, 1.7]]
 width = 1.2
-[[scenario]]
-name = "failed"
-operation = "emergency"
 )" + rated_lamp("foot", "[3, 0, 4.5]") +
-                           rated_lamp("head", "[8, 0, 4.5]");
-  return recorded(text, codes_alone());
+                      rated_lamp("head", "[8, 0, 4.5]"),
+                  codes_alone());
 }
 
 }  // namespace
