@@ -14,11 +14,13 @@
 
 #include "runtime/core/processor_time.hpp"
 #include "runtime/fetch/part_server.hpp"
+#include "runtime/net/net_pair.hpp"
 #include "runtime/net/zmq_transport.hpp"
-#include "tests/bench/net_pair.hpp"
 #include "tests/bench/net_tables.hpp"
 
 namespace luxodus::bench {
+
+using namespace net_pair;
 
 namespace {
 

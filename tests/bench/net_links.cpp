@@ -11,13 +11,15 @@
 #include <thread>
 #include <vector>
 
+#include "runtime/net/net_pair.hpp"
 #include "runtime/net/network.hpp"
 #include "runtime/net/zmq_transport.hpp"
-#include "tests/bench/net_pair.hpp"
 #include "tests/bench/net_tables.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::bench {
+
+using namespace net_pair;
 
 namespace {
 

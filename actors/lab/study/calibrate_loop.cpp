@@ -8,6 +8,7 @@
 #include "actors/lab/study/calibrate.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/core/processor_time.hpp"
+#include "runtime/net/net_pair.hpp"
 #include "runtime/net/network.hpp"
 #include "runtime/net/zmq_transport.hpp"
 
@@ -15,7 +16,8 @@ namespace luxodus {
 
 namespace {
 
-constexpr NodeId asker{0}, holder{1};
+using net_pair::asker, net_pair::holder, net_pair::config_of;
+
 constexpr size_t fibers = 256;
 constexpr int turns = 20'000;
 constexpr int questions = 20'000;
@@ -50,16 +52,6 @@ void measure_switches(SimCosts& costs) {
       static_cast<double>(std::max<uint64_t>(1, scheduler.counters().resumes - before));
   scheduler.fibers().cancel_all();
   while (scheduler.fibers().live() > 0) (void)scheduler.fibers().run_next();
-}
-
-NetConfig config_of(NodeId self) {
-  NetConfig config;
-  config.self = self;
-  config.incarnation = {1000u + self.value};
-  config.nodes = 2;
-  config.edges = {{asker, holder}};
-  config.identity.node = self;
-  return config;
 }
 
 /// Sends requests, or answers them: for object 0 "not here", for object n with n bytes.
