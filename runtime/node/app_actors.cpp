@@ -127,7 +127,7 @@ Result<Mail> AppActors::ask(const ActorRef& to, uint64_t schema, SharedBytes con
   }
   questions_.erase(id.sequence);
   if (question.answer) return std::move(*question.answer);
-  if (how == Wake::cancelled) return problem("the node leaves", ProblemKind::lost_peer);
+  if (how == Wake::cancelled) return node_leaves();
   return problem(fmt::format("no answer from node {} within {} s: is it up, and has it an actor of "
                              "this name?",
                              to.node.value, seconds_in(patience)),

@@ -23,6 +23,11 @@ namespace limits {
 inline constexpr size_t app_mailbox = 1'000'000;
 }  // namespace limits
 
+/// Why a wait ended before what it waited for came.
+inline Problem node_leaves() {
+  return problem("the node leaves", ProblemKind::lost_peer);
+}
+
 /// One actor: what handles its mail, one message after another.
 class AppActor final : public Supervised {
  public:

@@ -120,7 +120,7 @@ void NamedObjects::build(uint32_t object, SharedBytes bytes, Client& client) {
 
 Result<std::span<const std::byte>> NamedObjects::get(std::string_view name) {
   if (++asked_ % hits_at_once == 0 && scheduler_.fibers().yield() == Wake::cancelled)
-    return problem("the node leaves", ProblemKind::lost_peer);
+    return node_leaves();
   const uint64_t key = name_hash(name);
   if (const auto at = held_.find(key); at != held_.end()) return find(at->second.id).bytes;
   // Where a name leads may be out of date: its holders have ended, and others hold it now.
@@ -128,7 +128,7 @@ Result<std::span<const std::byte>> NamedObjects::get(std::string_view name) {
     const Result<uint32_t> slot = locate(name, key);
     if (!slot) return slot.problem();
     const Got got = server_.cache().get(slot.value());
-    if (got.how == Got::How::cancelled) return problem("the node leaves", ProblemKind::lost_peer);
+    if (got.how == Got::How::cancelled) return node_leaves();
     if (got.how == Got::How::resident)
       return static_cast<const KeptBytes&>(*got.object).wire_bytes().bytes;
     if (places_[slot.value()].wire_bytes > 0 && keys_[slot.value()] == key &&
@@ -146,8 +146,7 @@ Result<uint32_t> NamedObjects::locate(std::string_view name, uint64_t key) {
     if (const auto at = slots_.find(key); at != slots_.end()) return at->second;
     const auto other = searches_.find(key);
     if (other == searches_.end()) break;
-    if (fibers.wait(other->second->others, "where is it") == Wake::cancelled)
-      return problem("the node leaves", ProblemKind::lost_peer);
+    if (fibers.wait(other->second->others, "where is it") == Wake::cancelled) return node_leaves();
   }
   Search search;
   search.open.assign(config_.nodes, true);
@@ -158,7 +157,7 @@ Result<uint32_t> NamedObjects::locate(std::string_view name, uint64_t key) {
   searches_.erase(key);
   fibers.wake_all(search.others);
   if (search.slot) return *search.slot;
-  if (how == Wake::cancelled) return problem("the node leaves", ProblemKind::lost_peer);
+  if (how == Wake::cancelled) return node_leaves();
   if (search.open_count == 0)
     return problem(fmt::format("object '{}': no node holds it", name), ProblemKind::not_found);
   return problem(fmt::format("object '{}': {} of {} other nodes do not hold it, and the others did "

@@ -49,10 +49,6 @@ bool is_name(const std::string& name) {
          });
 }
 
-Problem node_leaves() {
-  return problem("the node leaves", ProblemKind::lost_peer);
-}
-
 /// The sentences of all, in one.
 Problem all_of(const Problems& found) {
   std::string text;
