@@ -18,6 +18,9 @@ inline constexpr size_t spacing_heights = 100;
 inline constexpr size_t spacing_levels = 20;
 }  // namespace limits
 
+/// Levels that data sheets have [lx].
+inline constexpr double usual_spacing_levels[] = {0.5, 1, 5};
+
 /// Luminous intensity [cd] in a unit direction of the luminaire's frame: -Z is down, C0 along +X,
 /// C90 along +Y.
 using Intensity = std::function<double(const glm::dvec3& direction)>;

@@ -83,7 +83,8 @@ Result<SpacedLuminaire> read_luminaire(const SpacingOptions& o) {
 Result<SpacingRequest> request_of(const SpacingOptions& o) {
   SpacingRequest out{o.heights, o.levels, {1}, o.plane};
   if (out.heights_m.empty()) out.heights_m = {2.5, 2.8, 3, 3.5, 4, 5};
-  if (out.levels_lx.empty()) out.levels_lx = {0.5, 1, 5};
+  if (out.levels_lx.empty())
+    out.levels_lx.assign(std::begin(usual_spacing_levels), std::end(usual_spacing_levels));
   if (o.end_of_life() < 1) out.factors.push_back(o.end_of_life());
   if (out.heights_m.size() > limits::spacing_heights ||
       out.levels_lx.size() > limits::spacing_levels)

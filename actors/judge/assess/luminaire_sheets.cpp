@@ -17,8 +17,7 @@ namespace {
 
 /// Step of the drawn intensities: finer than most files.
 constexpr double curve_step_deg = 2.5;
-/// Levels and heights of spacing tables as data sheets have them [lx], [m].
-constexpr double usual_levels[] = {0.5, 1, 5};
+/// Heights of spacing tables as data sheets have them [m].
 constexpr double usual_heights[] = {2.5, 3, 3.5, 4};
 /// Rows of a table: the usual heights and as many mounting heights.
 constexpr size_t max_heights = 8;
@@ -90,7 +89,7 @@ std::vector<SpacingRowRecord> spacing_of(const Emitter& e, const std::set<double
     if (heights.size() < max_heights) heights.insert(height);
   const double new_lm = e.emergency_flux / e.emergency_ageing;
   SpacingRequest request{{heights.begin(), heights.end()},
-                         {std::begin(usual_levels), std::end(usual_levels)},
+                         {std::begin(usual_spacing_levels), std::end(usual_spacing_levels)},
                          {},
                          floor_plane_m};
   if (e.initial_flux_known) request.factors.push_back(1);
