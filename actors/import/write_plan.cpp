@@ -15,6 +15,7 @@
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/table_reader.hpp"
+#include "scenes/formats/dxf/dxf_contents.hpp"
 #include "scenes/light/geometry/mesh.hpp"
 
 namespace luxodus {
@@ -83,9 +84,28 @@ std::map<std::string, size_t> counted(const Things& things, const Name& name) {
   return out;
 }
 
+/// Replaces references by contents where the user's table says so.
+Result<DxfPlan> with_opened_blocks(const DxfPlan& plan, const PlanRules& rules) {
+  return with_contents_of(plan, [&rules](const std::string& block) {
+    const auto rule = rules.blocks.find(block);
+    return rule != rules.blocks.end() && rule->second.as == "contents";
+  });
+}
+
 /// "1 line", "12 lines".
 std::string several(size_t count, const char* one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+/// "; holds 31 lines, 2 blocks"; nothing for a block that holds neither.
+std::string held_by(const DxfPlan& plan, const std::string& block) {
+  const auto it = plan.blocks.find(block);
+  if (it == plan.blocks.end()) return {};
+  std::string out;
+  if (!it->second.segments.empty()) out = several(it->second.segments.size(), "line");
+  if (!it->second.inserts.empty())
+    out += (out.empty() ? "" : ", ") + several(it->second.inserts.size(), "block");
+  return out.empty() ? out : "; holds " + out;
 }
 
 void add_rules(const DxfPlan& plan, OwnTables& layers, const OwnTables& blocks) {
@@ -100,9 +120,9 @@ void add_rules(const DxfPlan& plan, OwnTables& layers, const OwnTables& blocks) 
        counted(plan.inserts, [](const DxfInsert& i) { return i.block; }))
     if (!blocks.has("block", name))
       layers.added += fmt::format(
-          "\n[[block]]           # {}\nname = {}\nas = \"nothing\"      # luminaire, sign\n"
-          "type = {}\nheight_m = 2.5\n",
-          several(count, "time"), toml_text(name), toml_text(name));
+          "\n[[block]]           # {}{}\nname = {}\n"
+          "as = \"nothing\"      # luminaire, sign, contents\ntype = {}\nheight_m = 2.5\n",
+          several(count, "time"), held_by(plan, name), toml_text(name), toml_text(name));
 }
 
 constexpr const char* plan_head =
@@ -184,7 +204,9 @@ class PlanText {
     for (const DxfInsert& i : plan_.inserts) {
       const BlockRule& rule = rules_.blocks.at(i.block);
       extent.extend(glm::dvec3(i.at * unit_, 0));
-      if (rule.as == "nothing") continue;
+      if (rule.as == "contents") closed_.insert(i.block);
+      if (rule.as == "nothing") note_blocks_within(i.block);
+      if (rule.as == "nothing" || rule.as == "contents") continue;
       const std::string table = rule.as + "_type";
       if (!fixtures_.has(table, rule.type)) {
         missing_.insert("[[" + table + "]] \"" + rule.type + "\"");
@@ -199,6 +221,8 @@ class PlanText {
     if (rules_.ceiling_m) text += level_text("ceiling", around, *rules_.ceiling_m, false);
     for (const std::string& type : missing_)
       written.asked.push_back("fixtures.toml has no " + type);
+    for (const std::string& block : closed_)
+      written.asked.push_back("the drawing holds no contents of the block \"" + block + "\"");
     if (mirrored_ > 0)
       written.notes.push_back(several(mirrored_, "luminaire") +
                               " of mirrored blocks: turned as their blocks are, with light that is "
@@ -239,6 +263,16 @@ class PlanText {
     return text;
   }
 
+  void note_blocks_within(const std::string& block) {
+    const auto it = plan_.blocks.find(block);
+    if (it == plan_.blocks.end() || it->second.inserts.empty() || !noted_.insert(block).second)
+      return;
+    written.notes.push_back(
+        fmt::format("the block \"{}\" holds {}, which are not read: say as = \"contents\" in "
+                    "plan.toml if they are luminaires or signs",
+                    block, several(it->second.inserts.size(), "block")));
+  }
+
   std::string numbered(const std::string& name) {
     return fmt::format("{} {}", name, ++numbers_[name]);
   }
@@ -250,7 +284,7 @@ class PlanText {
   Bounds walls_;
   size_t mirrored_ = 0;
   std::map<std::string, size_t> numbers_;
-  std::set<std::string> missing_;
+  std::set<std::string> missing_, closed_, noted_;
 };
 
 std::string plan_scene(const std::string& drawing, const PlanText& made, const PlanRules& rules) {
@@ -288,7 +322,8 @@ const toml::Schema& plan_schema() {
        {"block",
         "`[[block]]`: a block that is placed",
         {{"name", "text", "", "required", "", "name of the block"},
-         {"as", "choice", "", "\"nothing\"", "nothing, luminaire, sign", "what it stands for"},
+         {"as", "choice", "", "\"nothing\"", "nothing, luminaire, sign, contents",
+          "what it stands for; contents: its own lines and blocks"},
          {"type", "text", "", "", "",
           "`[[luminaire_type]]` or `[[sign_type]]` of the scene; the block's name unless said"},
          {"height_m", "number", "m", "2.5", "[-1000, 1000]", "above the floor"}}}}};
@@ -311,15 +346,35 @@ std::map<std::string, std::string> accepted_names(const std::set<std::string>& d
   return out;
 }
 
+/// Calls `work` with the segments and the references of the plan, and of each of its blocks.
+template <class Plan, class Work>
+void for_each_part(Plan& plan, const Work& work) {
+  work(plan.segments, plan.inserts);
+  for (auto& [name, block] : plan.blocks) work(block.segments, block.inserts);
+}
+
 /// Renames layers and blocks to names that scenes accept.
 DxfPlan named(DxfPlan plan) {
   std::set<std::string> layers, blocks;
-  for (const DxfSegment& s : plan.segments) layers.insert(s.layer);
-  for (const DxfInsert& i : plan.inserts) blocks.insert(i.block);
+  for_each_part(plan, [&](const auto& segments, const auto& inserts) {
+    for (const DxfSegment& s : segments) layers.insert(s.layer);
+    for (const DxfInsert& i : inserts) layers.insert(i.layer), blocks.insert(i.block);
+  });
+  for (const auto& [name, block] : plan.blocks) blocks.insert(name);
+  for (const auto& [name, state] : plan.hidden_layers) layers.insert(name);
   const auto layer_names = accepted_names(layers, "0"),
              block_names = accepted_names(blocks, "block");
-  for (DxfSegment& s : plan.segments) s.layer = layer_names.at(s.layer);
-  for (DxfInsert& i : plan.inserts) i.block = block_names.at(i.block);
+  for_each_part(plan, [&](auto& segments, auto& inserts) {
+    for (DxfSegment& s : segments) s.layer = layer_names.at(s.layer);
+    for (DxfInsert& i : inserts)
+      i.layer = layer_names.at(i.layer), i.block = block_names.at(i.block);
+  });
+  std::map<std::string, DxfBlock> renamed;
+  for (auto& [name, block] : plan.blocks) renamed[block_names.at(name)] = std::move(block);
+  plan.blocks = std::move(renamed);
+  std::map<std::string, const char*> hidden;
+  for (const auto& [name, state] : plan.hidden_layers) hidden[layer_names.at(name)] = state;
+  plan.hidden_layers = std::move(hidden);
   return plan;
 }
 
@@ -327,7 +382,6 @@ DxfPlan named(DxfPlan plan) {
 
 Result<WrittenPlan> write_plan(const DxfPlan& drawn, double metres_per_unit,
                                const std::string& drawing, const std::string& out) {
-  const DxfPlan plan = named(drawn);
   const auto folder = import_folder(out);
   if (!folder) return folder.problem();
   const fs::path file = folder.value() / "plan.toml";
@@ -338,6 +392,11 @@ Result<WrittenPlan> write_plan(const DxfPlan& drawn, double metres_per_unit,
   const auto fixtures =
       own_tables(folder.value() / "fixtures.toml", {"luminaire_type", "sign_type"});
   if (!fixtures) return fixtures.problem();
+  const auto before = rules_of(tables.value());
+  if (!before) return before.problem();
+  const auto opened = with_opened_blocks(named(drawn), before.value());
+  if (!opened) return problem_in(drawing, opened.problem().where.line, opened.problem());
+  const DxfPlan& plan = opened.value();
   add_rules(plan, tables.value(), blocks.value());
   const auto rules = rules_of(tables.value());
   if (!rules) return rules.problem();
@@ -368,6 +427,9 @@ Result<WrittenPlan> write_plan(const DxfPlan& drawn, double metres_per_unit,
       write_unless_there(folder.value() / "scene.toml", plan_scene(drawing, made, rules.value()));
   if (!kept) return kept.problem();
   made.written.kept_scene = kept.value();
+  made.written.lines = plan.segments.size();
+  made.written.blocks = plan.inserts.size();
+  made.written.notes.insert(made.written.notes.begin(), plan.notes.begin(), plan.notes.end());
   return made.written;
 }
 

@@ -16,10 +16,11 @@
 namespace luxodus {
 
 struct WrittenPlan {
+  size_t lines = 0, blocks = 0;  // of the plan, with those of opened blocks
   size_t walls = 0, luminaires = 0, signs = 0;
   std::vector<std::string> asked;  // messages about layers, blocks and types that the user must
                                    // complete
-  std::vector<std::string> notes;  // what the scene does not say as the drawing does
+  std::vector<std::string> notes;  // of the plan, and what the scene does not say as it does
   bool kept_scene = false;
 };
 

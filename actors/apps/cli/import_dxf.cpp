@@ -38,11 +38,9 @@ Result<ExitCode> import_dxf(const ImportDxfOptions& options) {
   if (!unit) return unit.problem();
   const auto written = write_plan(plan.value(), unit.value(), options.drawing, options.out);
   if (!written) return written.problem();
-  std::printf("lines %zu, blocks %zu; walls %zu, luminaires %zu, signs %zu\n",
-              plan->segments.size(), plan->inserts.size(), written->walls, written->luminaires,
-              written->signs);
-  for (const std::vector<std::string>* notes : {&plan->notes, &written->notes})
-    for (const std::string& what : *notes) std::printf("note: %s\n", printable(what).c_str());
+  std::printf("lines %zu, blocks %zu; walls %zu, luminaires %zu, signs %zu\n", written->lines,
+              written->blocks, written->walls, written->luminaires, written->signs);
+  for (const std::string& what : written->notes) std::printf("note: %s\n", printable(what).c_str());
   for (const std::string& what : written->asked)
     std::printf("asked for: %s\n", printable(what).c_str());
   std::printf("%s%s\n", (std::filesystem::path(options.out) / "building.toml").c_str(),

@@ -8,7 +8,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -92,6 +91,7 @@ class PlanReader {
     if (part_ != nullptr && ++taken_ % records_of_a_word == 0) part_->at(records_.at());
     if (record.kind == "SECTION") {
       in_drawing_ = true;
+      end_block();
       section_ = record.text(2);
       if (section_ == "HEADER") take_header(record);
     } else if (record.kind == "EOF") {
@@ -133,16 +133,29 @@ class PlanReader {
 
   void take_layer(const DxfRecord& record) {
     const bool frozen = (integer(record, 70, 0) & 1) != 0, off = integer(record, 62, 7) < 0;
-    if (off || frozen) hidden_layers_[names_.utf8(record.text(2))] = frozen ? "frozen" : "off";
+    if (off || frozen) plan_.hidden_layers[names_.utf8(record.text(2))] = frozen ? "frozen" : "off";
   }
 
   void take_of_block(const DxfRecord& record) {
+    constexpr int external_reference = 4;
     if (record.kind == "BLOCK") {
-      block_ = names_.utf8(record.text(2));
-      if ((integer(record, 70, 0) & 4) != 0) foreign_blocks_.insert(block_);
-    } else if (record.kind == "INSERT") {
-      ++blocks_within_[block_];
+      end_block();
+      too_many_ = too_many_ || plan_.blocks.size() >= limits::dxf_plan_things;
+      if (too_many_) return;
+      block_ = &plan_.blocks[names_.utf8(record.text(2))];
+      *block_ = {};
+      block_->base = point(record, 0);
+      block_->foreign = (integer(record, 70, 0) & external_reference) != 0;
+    } else if (record.kind == "ENDBLK" || record.kind == "ENDSEC") {
+      end_block();
+    } else if (block_ != nullptr) {
+      take_entity(record);
     }
+  }
+
+  void end_block() {
+    end_polyline();
+    block_ = nullptr;
   }
 
   // ---- entities ------------------------------------------------------------------------------
@@ -159,7 +172,7 @@ class PlanReader {
         "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "LWPOLYLINE", "POLYLINE", "INSERT"};
     if (std::find(read_kinds.begin(), read_kinds.end(), kind) == read_kinds.end())
       return leave_out(kind);
-    too_many_ = too_many_ || record.cut;
+    if (record.cut) say_too_many();
     if (kind == "LINE") {
       add(layer_of(record), {point(record, 0), point(record, 1)});
     } else if (kind == "ARC" || kind == "CIRCLE") {
@@ -178,7 +191,7 @@ class PlanReader {
   }
 
   void pass_over(std::string_view kind, size_t& count) {
-    ++count;
+    if (block_ == nullptr) ++count;
     in_polyline_ = skips_polyline_ = kind == "POLYLINE";  // with its vertices
   }
 
@@ -248,10 +261,7 @@ class PlanReader {
   void take_vertex(const DxfRecord& record) {
     constexpr int of_spline_frame = 16;
     if (skips_polyline_ || (integer(record, 70, 0) & of_spline_frame) != 0) return;
-    if (polyline_.corners.size() >= limits::dxf_plan_things) {
-      too_many_ = true;
-      return;
-    }
+    if (polyline_.corners.size() >= limits::dxf_plan_things) return say_too_many();
     polyline_.corners.push_back({solid_point(record, 0), number(record, 42, 0)});
   }
 
@@ -286,22 +296,23 @@ class PlanReader {
     const double degrees = std::atan2(x.y, x.x) * 180 / std::numbers::pi;
     insert.rotation_deg = std::round((degrees < 0 ? degrees + 360 : degrees) * 1e9) / 1e9;
     insert.mirrored = x.x * y.y - x.y * y.x < 0;
-    if (std::abs(axes.z.z) < 1 - 1e-6) ++tilted_;
+    insert.axes = {x * std::abs(number(record, 41, 1)), y * std::abs(number(record, 42, 1))};
+    if (std::abs(axes.z.z) < 1 - 1e-6 && block_ == nullptr) ++tilted_;
     const int columns = std::max(1, integer(record, 70, 1)),
               rows = std::max(1, integer(record, 71, 1));
     const double width = number(record, 44, 0), height = number(record, 45, 0);
     const glm::dvec3 corner = solid_point(record, 0);
     if (static_cast<size_t>(columns) > limits::dxf_plan_things ||
         static_cast<size_t>(rows) > limits::dxf_plan_things ||
-        plan_.inserts.size() + static_cast<size_t>(columns) * static_cast<size_t>(rows) >
-            limits::dxf_plan_things) {
-      too_many_ = true;
-      return;
-    }
+        insert_count() + static_cast<size_t>(columns) * static_cast<size_t>(rows) >
+            limits::dxf_plan_things)
+      return say_too_many();
+    insert_count() += static_cast<size_t>(columns) * static_cast<size_t>(rows);
+    std::vector<DxfInsert>& inserts = block_ != nullptr ? block_->inserts : plan_.inserts;
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
         insert.at = axes.plan(corner + column * width * along + row * height * across);
-        if (finite(insert.at)) plan_.inserts.push_back(insert);
+        if (finite(insert.at)) inserts.push_back(insert);
       }
     }
   }
@@ -310,7 +321,7 @@ class PlanReader {
 
   double value(const DxfGroup& group) {
     const auto number = number_of(group);
-    if (!number && !fault_) fault_ = number.problem();
+    if (!number) say_fault(number.problem());
     return number ? number.value() : 0;
   }
   double number(const DxfRecord& record, int code, double otherwise) {
@@ -321,7 +332,7 @@ class PlanReader {
     const DxfGroup* group = record.find(code);
     if (group == nullptr) return otherwise;
     const auto number = integer_of(*group);
-    if (!number && !fault_) fault_ = number.problem();
+    if (!number) say_fault(number.problem());
     return number ? number.value() : otherwise;
   }
   /// Point `index` of a record: codes 10 + index, 20 + index, 30 + index.
@@ -358,20 +369,35 @@ class PlanReader {
   // ---- what is found -------------------------------------------------------------------------
 
   void add(const std::string& layer, const std::vector<glm::dvec2>& way) {
+    std::vector<DxfSegment>& segments = block_ != nullptr ? block_->segments : plan_.segments;
     for (size_t i = 0; i + 1 < way.size(); ++i) {
       if (!finite(way[i]) || !finite(way[i + 1]) || way[i] == way[i + 1]) continue;
-      if (plan_.segments.size() >= limits::dxf_plan_things) {
-        too_many_ = true;
-        return;
-      }
-      plan_.segments.push_back({layer, way[i], way[i + 1]});
+      if (++segment_count() > limits::dxf_plan_things) return say_too_many();
+      segments.push_back({layer, way[i], way[i + 1]});
     }
   }
 
   void leave_out(std::string_view kind) {
-    const bool told_apart = unread_.size() < max_unread_kinds;
-    ++unread_[told_apart || unread_.contains(std::string(kind)) ? std::string(kind)
-                                                                : "entities of other kinds"];
+    auto& unread = block_ != nullptr ? block_->unread : unread_;
+    const bool told_apart = unread.size() < max_unread_kinds;
+    ++unread[told_apart || unread.contains(std::string(kind)) ? std::string(kind)
+                                                              : "entities of other kinds"];
+  }
+
+  size_t& segment_count() { return segments_of_[block_ != nullptr ? 1 : 0]; }
+  size_t& insert_count() { return inserts_of_[block_ != nullptr ? 1 : 0]; }
+
+  // Many drawings carry libraries of blocks that nobody opens: these are no reason to reject them.
+  void say_fault(const Problem& fault) {
+    std::optional<Problem>& of_it = block_ != nullptr ? block_->problem : fault_;
+    if (!of_it) of_it = fault;
+  }
+  void say_too_many() {
+    if (block_ == nullptr)
+      too_many_ = true;
+    else
+      say_fault(problem(fmt::format("the blocks of the drawing hold more than {} lines or blocks",
+                                    limits::dxf_plan_things)));
   }
 
   void tell_notes() {
@@ -387,24 +413,18 @@ class PlanReader {
     std::map<std::string, size_t> on_layer, of_block;
     for (const DxfSegment& s : plan_.segments) ++on_layer[s.layer];
     for (const DxfInsert& i : plan_.inserts) ++on_layer[i.layer], ++of_block[i.block];
-    for (const auto& [layer, state] : hidden_layers_)
+    for (const auto& [layer, state] : plan_.hidden_layers)
       if (const auto it = on_layer.find(layer); it != on_layer.end())
         notes.push_back(
             fmt::format("the layer \"{}\" is {} in the drawing; what is on it ({}) is "
                         "read all the same",
                         excerpt(layer), state, counted_words(it->second, "thing")));
-    for (const auto& [block, count] : of_block) {
-      if (foreign_blocks_.contains(block))
+    for (const auto& [name, count] : of_block)
+      if (const auto it = plan_.blocks.find(name); it != plan_.blocks.end() && it->second.foreign)
         notes.push_back(
             fmt::format("the block \"{}\" is another drawing (an external reference), "
-                        "which is not read: bind it, then explode it",
-                        excerpt(block)));
-      else if (const auto it = blocks_within_.find(block); it != blocks_within_.end())
-        notes.push_back(fmt::format(
-            "the block \"{}\" holds other blocks ({}), which are not read: explode it if "
-            "they are luminaires or signs",
-            excerpt(block), it->second));
-    }
+                        "which is not read: bind it",
+                        excerpt(name)));
     if (tilted_ > 0)
       notes.push_back(
           fmt::format("{} tilted against the plan: places and turns are those seen "
@@ -439,14 +459,14 @@ class PlanReader {
   DxfNames names_{"", ""};
   DxfPlan plan_;
   std::optional<Problem> fault_;
-  std::string section_, block_;
+  std::string section_;
+  DxfBlock* block_ = nullptr;  // whose contents are being read; null in the model space
   Polyline polyline_;
   bool in_drawing_ = false, ended_ = false, too_many_ = false;
   bool in_polyline_ = false, skips_polyline_ = false;
+  std::array<size_t, 2> segments_of_{}, inserts_of_{};  // the model space, and all blocks
   size_t taken_ = 0, of_paper_ = 0, invisible_ = 0, tilted_ = 0;
-  std::map<std::string, size_t> unread_, blocks_within_;
-  std::map<std::string, const char*> hidden_layers_;
-  std::set<std::string> foreign_blocks_;
+  std::map<std::string, size_t> unread_;
 };
 
 /// Why the bytes are no DXF in text; nothing where they may be.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/formats/dxf/dxf_contents.hpp"
 #include "scenes/formats/dxf/dxf_plan.hpp"
 #include "scenes/formats/images/page_picture.hpp"
 #include "scenes/formats/scene_file/read_files.hpp"
@@ -69,7 +70,9 @@ void read_picture(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
 }
 
 void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& out) {
-  const auto plan = read_dxf_plan(path, keys.reading().share);
+  const auto drawing = read_dxf_plan(path, keys.reading().share);
+  if (!drawing) return take_problem(drawing.problem(), keys.place("file"), keys.reading());
+  const auto plan = with_contents_of(drawing.value(), [](const std::string&) { return true; });
   if (!plan) return take_problem(plan.problem(), keys.place("file"), keys.reading());
   double metres = plan->metres_per_unit;
   if (const auto unit = keys.maybe_choice("units")) {

@@ -1,6 +1,7 @@
 // The scene that the user's table makes of a DXF plan.
 #include "actors/import/write_plan.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -144,6 +145,54 @@ TEST_CASE("layers whose names a scene cannot bear stay apart", "[import][dxf]") 
   const std::string table((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   for (const char* name : {"name = \"A-B\"", "name = \"A-B#2\"", "name = \"WÄNDE\""})
     CHECK(table.find(name) != std::string::npos);
+}
+
+TEST_CASE("the contents of a block become part of the plan where the table says so",
+          "[import][dxf]") {
+  const TemporaryFolder folder;
+  const auto text_of = [&](const char* file) {
+    std::ifstream in(folder / "o" / file);
+    return std::string((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  };
+  DxfPlan plan;
+  plan.inserts.push_back({"FLOOR", "0", {10, 0}});
+  plan.blocks["FLOOR"].segments = {{"WALLS", {0, 0}, {5, 0}}, {"WALLS", {5, 0}, {5, 4}}};
+  plan.blocks["FLOOR"].inserts = {{"LAMP", "LIGHTS", {2, 2}}};
+  const auto first = write_plan(plan, 1, "plan.dxf", (folder / "o").string());
+  REQUIRE(first.ok());
+  CHECK(text_of("plan.toml").find("# 1 time; holds 2 lines, 1 block") != std::string::npos);
+  REQUIRE(first->notes.size() == 1);
+  CHECK(first->notes[0].find("the block \"FLOOR\" holds 1 block, which") == 0);
+  folder.write("o/plan.toml", "[[block]]\nname = \"FLOOR\"\nas = \"contents\"\n");
+  const auto second = write_plan(plan, 1, "plan.dxf", (folder / "o").string());
+  REQUIRE(second.ok());
+  CHECK(second->lines == 2);
+  CHECK(second->blocks == 1);
+  const std::string rules = text_of("plan.toml");
+  CHECK(rules.find("name = \"WALLS\"") != std::string::npos);
+  CHECK(rules.find("name = \"LAMP\"") != std::string::npos);
+  folder.write("o/plan.toml",
+               "[[block]]\nname = \"FLOOR\"\nas = \"contents\"\n[[block]]\nname = \"LAMP\"\n"
+               "as = \"luminaire\"\n[[layer]]\nname = \"WALLS\"\nas = \"sheet\"\n");
+  folder.write("o/fixtures.toml", "[[luminaire_type]]\nname = \"LAMP\"\n");
+  const auto third = write_plan(plan, 1, "plan.dxf", (folder / "o").string());
+  REQUIRE(third.ok());
+  CHECK(third->walls == 2);
+  CHECK(third->luminaires == 1);
+  CHECK(text_of("building.toml").find("position = [12, 2, 2.5]") != std::string::npos);
+}
+
+TEST_CASE("a block without contents that is to be opened is asked for", "[import][dxf]") {
+  const TemporaryFolder folder;
+  DxfPlan plan;
+  plan.segments.push_back({"W", {0, 0}, {5, 0}});
+  plan.inserts.push_back({"FLOOR", "0", {10, 0}});
+  std::filesystem::create_directories(folder / "o");
+  folder.write("o/plan.toml", "[[block]]\nname = \"FLOOR\"\nas = \"contents\"\n");
+  const auto written = write_plan(plan, 1, "plan.dxf", (folder / "o").string());
+  REQUIRE(written.ok());
+  CHECK(std::count(written->asked.begin(), written->asked.end(),
+                   "the drawing holds no contents of the block \"FLOOR\"") == 1);
 }
 
 TEST_CASE("a sign of a mirrored block looks along the block's own y axis", "[import][dxf]") {

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "scenes/formats/dxf/dxf_contents.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/kit/small_dxf.hpp"
 #include "tests/kit/temporary_folder.hpp"
@@ -327,27 +328,107 @@ TEST_CASE("layers that are off or frozen are read, and told", "[dxf]") {
   CHECK(says(plan, "\"ICE\" is frozen in the drawing"));
 }
 
-TEST_CASE("blocks that hold others, or are other drawings, are told", "[dxf]") {
-  const DxfPlan plan =
-      plan_of(dxf_groups({{0, "SECTION"},
-                          {2, "BLOCKS"},
-                          {0, "BLOCK"},
-                          {2, "WING"},
-                          {70, "0"},
-                          {0, "INSERT"},
-                          {2, "LAMP"},
-                          {0, "ENDBLK"},
-                          {0, "BLOCK"},
-                          {2, "SITE"},
-                          {70, "4"},
-                          {0, "ENDBLK"},
-                          {0, "ENDSEC"},
-                          {0, "SECTION"},
-                          {2, "ENTITIES"}}) +
-              dxf_insert("WING", "0", "0", "0") + dxf_insert("SITE", "0", "0", "0") +
-              dxf_groups({{0, "ENDSEC"}, {0, "EOF"}}));
-  CHECK(says(plan, "the block \"WING\" holds other blocks (1), which"));
-  CHECK(says(plan, "the block \"SITE\" is another drawing"));
+namespace {
+
+/// A drawing with a block WING: its base point is (1, 0); it holds a line of 2 on the layer "0",
+/// one on the layer WALLS, a hatch and a LAMP at (3, 0). `more`: further blocks.
+std::string wing_drawing(const std::string& entities, const std::string& more = "") {
+  return dxf_groups({{0, "SECTION"},
+                     {2, "BLOCKS"},
+                     {0, "BLOCK"},
+                     {2, "WING"},
+                     {70, "0"},
+                     {10, "1"},
+                     {20, "0"}}) +
+         dxf_line("0", "1", "0", "3", "0") + dxf_line("WALLS", "1", "0", "1", "1") +
+         dxf_groups({{0, "HATCH"}, {8, "0"}}) + dxf_insert("LAMP", "3", "0", "0") +
+         dxf_groups({{0, "ENDBLK"}}) + more +
+         dxf_groups({{0, "ENDSEC"}, {0, "SECTION"}, {2, "ENTITIES"}}) + entities +
+         dxf_groups({{0, "ENDSEC"}, {0, "EOF"}});
+}
+
+std::string block_of(const char* name, const std::string& contents) {
+  return dxf_groups({{0, "BLOCK"}, {2, name}, {70, "0"}}) + contents + dxf_groups({{0, "ENDBLK"}});
+}
+
+Result<DxfPlan> opened(const std::string& text) {
+  return with_contents_of(plan_of(text), [](const std::string& block) { return block != "LAMP"; });
+}
+
+}  // namespace
+
+TEST_CASE("blocks that are other drawings are told and stay closed", "[dxf]") {
+  const std::string site = dxf_groups({{0, "BLOCK"}, {2, "SITE"}, {70, "4"}, {0, "ENDBLK"}});
+  const std::string text = wing_drawing(dxf_insert("SITE", "0", "0", "0"), site);
+  CHECK(says(plan_of(text), "the block \"SITE\" is another drawing"));
+  const auto plan = opened(text);
+  REQUIRE(plan.ok());
+  REQUIRE(plan->inserts.size() == 1);
+  CHECK(plan->inserts[0].block == "SITE");
+}
+
+TEST_CASE("what a block holds stands where its reference puts it", "[dxf]") {
+  const std::string turned = dxf_groups({{0, "INSERT"},
+                                         {8, "EAST"},
+                                         {2, "WING"},
+                                         {10, "10"},
+                                         {20, "5"},
+                                         {41, "2"},
+                                         {42, "-2"},
+                                         {50, "90"}});
+  const DxfPlan closed = plan_of(wing_drawing(turned));
+  CHECK(closed.segments.empty());
+  CHECK(closed.notes.empty());
+  const auto plan = opened(wing_drawing(turned));
+  REQUIRE(plan.ok());
+  REQUIRE(plan->segments.size() == 2);
+  // By hand: p goes to (10, 5) + 2 (p.x - 1) (0, 1) + 2 p.y (1, 0).
+  CHECK(plan->segments[0].layer == "EAST");
+  CHECK(near(plan->segments[0].from, {10, 5}));
+  CHECK(near(plan->segments[0].to, {10, 9}));
+  CHECK(plan->segments[1].layer == "WALLS");
+  CHECK(near(plan->segments[1].to, {12, 5}));
+  REQUIRE(plan->inserts.size() == 1);
+  CHECK(plan->inserts[0].block == "LAMP");
+  CHECK(near(plan->inserts[0].at, {10, 9}));
+  CHECK(plan->inserts[0].rotation_deg == Approx(90));
+  CHECK(plan->inserts[0].mirrored);
+  CHECK(says(plan.value(), "not read: 1 HATCH in the block \"WING\""));
+}
+
+TEST_CASE("blocks within one another are opened, and arrays of them", "[dxf]") {
+  const std::string floor = block_of("FLOOR", dxf_insert("WING", "0", "10", "180"));
+  const std::string array = dxf_groups(
+      {{0, "INSERT"}, {8, "0"}, {2, "FLOOR"}, {10, "0"}, {20, "0"}, {70, "3"}, {44, "20"}});
+  const auto plan = opened(wing_drawing(array, floor));
+  REQUIRE(plan.ok());
+  CHECK(plan->segments.size() == 6);
+  REQUIRE(plan->inserts.size() == 3);
+  CHECK(near(plan->inserts[2].at, {38, 10}));
+  CHECK(plan->inserts[2].rotation_deg == Approx(180));
+}
+
+TEST_CASE("blocks that hold themselves, or too much, are rejected where they are opened", "[dxf]") {
+  const std::string loop =
+      block_of("A", dxf_insert("B", "0", "0", "0")) + block_of("B", dxf_insert("A", "0", "0", "0"));
+  const auto endless = opened(wing_drawing(dxf_insert("A", "0", "0", "0"), loop));
+  REQUIRE_FALSE(endless.ok());
+  CHECK(endless.problem().what.find("holds itself") != std::string::npos);
+  std::string tree = block_of("T0", dxf_line("W", "0", "0", "1", "0"));
+  for (int i = 1; i <= 25; ++i) {
+    const std::string inner = "T" + std::to_string(i - 1);
+    const std::string two = dxf_insert(inner.c_str(), "0", "0", "0");
+    tree += block_of(("T" + std::to_string(i)).c_str(), two + two);
+  }
+  const auto broad = opened(wing_drawing(dxf_insert("T25", "0", "0", "0"), tree));
+  REQUIRE_FALSE(broad.ok());
+  CHECK(broad.problem().what.find("open fewer") != std::string::npos);
+  const std::string odd = block_of("ODD", dxf_line("W", "0", "x", "1", "0"));
+  CHECK(plan_of(wing_drawing(dxf_insert("ODD", "0", "0", "0"), odd)).inserts.size() == 1);
+  const auto unreadable = opened(wing_drawing(dxf_insert("ODD", "0", "0", "0"), odd));
+  REQUIRE_FALSE(unreadable.ok());
+  CHECK(unreadable.problem().what.find("in the block \"ODD\": ") == 0);
+  CHECK(unreadable.problem().where.line > 0);
 }
 
 TEST_CASE("every unit of length that DXF has is read, and others are told", "[dxf]") {
@@ -444,9 +525,11 @@ TEST_CASE("mutated drawings are read or rejected with one sentence", "[dxf]") {
     const Bytes harmed = i % 2 == 0 ? mutated(one, other, random) : mutated(other, one, random);
     const auto plan = dxf_plan_of(
         std::string(reinterpret_cast<const char*>(harmed.data()), harmed.size()), "harmed.dxf");
-    if (plan)
+    if (plan) {
       REQUIRE(is_finite_plan(plan.value()));
-    else
+      const auto contents = with_contents_of(plan.value(), [](const std::string&) { return true; });
+      if (contents) REQUIRE(is_finite_plan(contents.value()));
+    } else
       REQUIRE_FALSE(plan.problem().what.empty());
     read += plan.ok() ? 1 : 0;
   }
