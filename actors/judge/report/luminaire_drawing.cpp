@@ -20,6 +20,8 @@ constexpr double polar_width_mm = 56, polar_height_mm = 46;
 constexpr double body_width_mm = 36, body_height_mm = 34;
 /// Light above the horizon below this share of the largest intensity does not move the centre.
 constexpr double faint_up = 0.05;
+/// Height of the numbers of rings.
+constexpr double ring_text_mm = 2.1;
 constexpr const char* curve_styles[] = {
     "fill=\"none\" stroke=\"#b3261e\" stroke-width=\"0.55\" stroke-linejoin=\"round\"",
     "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.55\" stroke-dasharray=\"1.8 0.8\" "
@@ -77,7 +79,67 @@ PolarFrame frame_of(const SheetRecord& sheet) {
   return out;
 }
 
-std::string polar_grid(const PolarFrame& frame, bool whole, const Texts& texts) {
+std::vector<glm::dvec2> curve_points(const PolarFrame& frame, const SheetRecord& sheet,
+                                     const std::vector<double>& curve) {
+  std::vector<glm::dvec2> points;
+  const auto middle = static_cast<double>(curve.size() / 2);
+  for (size_t i = 0; i < curve.size(); ++i)
+    points.push_back(frame.at((static_cast<double>(i) - middle) * sheet.curve_step_deg, curve[i]));
+  return points;
+}
+
+/// Box of a ring's number.
+struct RingLabel {
+  glm::dvec2 centre{0}, half{0};
+  std::string text;
+
+  /// Whether a line passes beside it.
+  bool is_free_of(const std::vector<glm::dvec2>& line) const {
+    for (size_t i = 0; i + 1 < line.size(); ++i) {
+      const glm::dvec2 from = (line[i] - centre) / half, to = (line[i + 1] - centre) / half;
+      const glm::dvec2 way = to - from;
+      const double share =
+          std::clamp(-glm::dot(from, way) / std::max(glm::dot(way, way), 1e-12), 0.0, 1.0);
+      if (glm::length(from + share * way) < 1) return false;
+    }
+    return true;
+  }
+};
+
+/// The numbers of rings along one direction, only those that no curve crosses.
+std::vector<RingLabel> ring_labels(const PolarFrame& frame, double gamma_deg,
+                                   const std::array<std::vector<glm::dvec2>, 2>& curves,
+                                   const Texts& texts) {
+  constexpr double gap_mm = 0.6;
+  std::vector<RingLabel> out;
+  for (double cd = frame.step_cd; cd < frame.top_cd * (1 + 1e-9); cd += frame.step_cd) {
+    RingLabel label{frame.at(gamma_deg, cd), {}, texts.number(cd)};
+    // An ellipse through the corners of the text's box.
+    label.half = std::numbers::sqrt2 *
+                 (glm::dvec2(text_width_mm(label.text, ring_text_mm), ring_text_mm) / 2.0 + gap_mm);
+    if (gamma_deg == 0) label.centre += glm::dvec2(label.half.x / std::numbers::sqrt2, -0.4);
+    if (label.is_free_of(curves[0]) && label.is_free_of(curves[1])) out.push_back(std::move(label));
+  }
+  return out;
+}
+
+/// The numbers of rings along the first direction in which most of them are free.
+std::string ring_numbers(const PolarFrame& frame, bool whole,
+                         const std::array<std::vector<glm::dvec2>, 2>& curves, const Texts& texts) {
+  std::vector<RingLabel> best;
+  for (const double gamma : {0., 15., -15., 45., -45., 75., -75., 105., -105., 135., -135., 165.}) {
+    if (!whole && std::abs(gamma) > 90) continue;
+    auto labels = ring_labels(frame, gamma, curves, texts);
+    if (labels.size() > best.size()) best = std::move(labels);
+  }
+  std::string out;
+  for (const RingLabel& label : best)
+    out += text_at(label.centre.x, label.centre.y + 0.36 * ring_text_mm, label.text,
+                   "text-anchor=\"middle\"", ring_text_mm);
+  return out;
+}
+
+std::string polar_grid(const PolarFrame& frame, bool whole) {
   std::string out = "<g fill=\"none\" stroke=\"#b8c0c8\" stroke-width=\"0.15\">\n";
   const auto count = static_cast<int>(std::lround(frame.top_cd / frame.step_cd));
   for (int i = 1; i <= count; ++i) {
@@ -97,9 +159,6 @@ std::string polar_grid(const PolarFrame& frame, bool whole, const Texts& texts) 
                        frame.centre.y, end.x, end.y);
   }
   out += "</g>\n<g fill=\"#5c6670\">\n";
-  for (int i = 1; i <= count; ++i)
-    out += text_at(frame.centre.x + 0.5, frame.centre.y + frame.radius_mm * i / count - 0.4,
-                   texts.number(i * frame.step_cd), "", 2.1);
   for (const int gamma : {30, 60}) {
     const glm::dvec2 right = frame.at(gamma, frame.top_cd), left = frame.at(-gamma, frame.top_cd);
     out += text_at(right.x + 0.4, right.y + 1.6, std::to_string(gamma) + "°", "", 2.1) +
@@ -109,12 +168,7 @@ std::string polar_grid(const PolarFrame& frame, bool whole, const Texts& texts) 
   return out + "</g>\n";
 }
 
-std::string polar_curve(const PolarFrame& frame, const SheetRecord& sheet,
-                        const std::vector<double>& curve, const char* style) {
-  std::vector<glm::dvec2> points;
-  const auto middle = static_cast<double>(curve.size() / 2);
-  for (size_t i = 0; i < curve.size(); ++i)
-    points.push_back(frame.at((static_cast<double>(i) - middle) * sheet.curve_step_deg, curve[i]));
+std::string polar_curve(const std::vector<glm::dvec2>& points, const char* style) {
   return "<path class=\"curve\" d=\"" + path_of(points, false) + "\" " + style + "/>\n";
 }
 
@@ -191,10 +245,12 @@ std::string polar_svg(const SheetRecord& sheet, const Texts& texts) {
   if (sheet.c0_c180.empty()) return "";
   const PolarFrame frame = frame_of(sheet);
   const bool whole = frame.centre.y > 5;
+  const std::array curves{curve_points(frame, sheet, sheet.c0_c180),
+                          curve_points(frame, sheet, sheet.c90_c270)};
   return drawing(polar_width_mm, polar_height_mm,
-                 polar_grid(frame, whole, texts) +
-                     polar_curve(frame, sheet, sheet.c0_c180, curve_styles[0]) +
-                     polar_curve(frame, sheet, sheet.c90_c270, curve_styles[1]) + polar_key(texts));
+                 polar_grid(frame, whole) + polar_curve(curves[0], curve_styles[0]) +
+                     polar_curve(curves[1], curve_styles[1]) + "<g fill=\"#5c6670\">\n" +
+                     ring_numbers(frame, whole, curves, texts) + "</g>\n" + polar_key(texts));
 }
 
 std::string body_svg(const LuminaireRecord& luminaire, const SheetRecord& sheet,

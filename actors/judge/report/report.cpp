@@ -89,8 +89,15 @@ Result<void> write_schedules(const fs::path& folder, const AssessmentRecord& a,
   return {};
 }
 
-/// Prints twice: the first print gives the page of each heading, which the second one has in its
-/// contents.
+/// The page of each heading in a printed report; none where there is no such file.
+std::map<std::string, int> printed_pages(const fs::path& pdf) {
+  const auto bytes = read_whole_file(pdf, pdf_bytes);
+  return bytes ? pages_of_destinations(bytes_text(bytes.value())) : std::map<std::string, int>{};
+}
+
+/// Contents name the page of each heading, which is known once a report is printed. Pages are those
+/// of the report that lies there, such as one in another language, until they turn out to differ:
+/// then it is printed a second time.
 Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
                           const std::vector<ReportPicture>& pictures,
                           const ReportOptions& options) {
@@ -100,11 +107,10 @@ Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
     const auto written = write_file_atomically(page, report_html(a, pictures, options, pages));
     return written ? print_pdf(page, pdf) : written;
   };
-  Result<void> done = print({});
-  if (done) {
-    const auto bytes = read_whole_file(pdf, pdf_bytes);
-    if (bytes) done = print(pages_of_destinations(bytes_text(bytes.value())));
-  }
+  const std::map<std::string, int> expected = printed_pages(pdf);
+  Result<void> done = print(expected);
+  if (done)
+    if (const auto pages = printed_pages(pdf); pages != expected) done = print(pages);
   std::error_code ignored;
   fs::remove(page, ignored);
   return done;
