@@ -31,6 +31,27 @@ size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// Letters that two words begin with alike.
+size_t common_beginning(std::string_view a, std::string_view b) {
+  const auto [end, ignored] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  return static_cast<size_t>(end - a.begin());
+}
+
+/// The only word of these that begins like `word` for at least half of either: "reflectivity" for
+/// "reflectance".
+std::optional<std::string_view> word_of_same_stem(std::string_view word,
+                                                  const std::vector<std::string_view>& known) {
+  constexpr size_t least_letters = 5;
+  std::optional<std::string_view> found;
+  for (const auto candidate : known) {
+    const size_t common = common_beginning(word, candidate);
+    if (common < least_letters || 2 * common < std::max(word.size(), candidate.size())) continue;
+    if (found) return std::nullopt;
+    found = candidate;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<std::string_view> nearest_word(std::string_view word,
@@ -46,6 +67,7 @@ std::optional<std::string_view> nearest_word(std::string_view word,
     too_far = steps;
     nearest = candidate;
   }
+  if (!nearest && !max_steps) return word_of_same_stem(word, known);
   return nearest;
 }
 

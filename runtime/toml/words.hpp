@@ -10,7 +10,7 @@ namespace luxodus::toml {
 
 /// The nearest of these words, or nothing where none is near enough to be what was meant. Near are
 /// few steps: insert, remove, replace, swap neighbours. `max_steps`: else a third of the word may
-/// be wrong.
+/// be wrong, or all behind the first half where one known word alone begins so.
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known,
                                              std::optional<size_t> max_steps = std::nullopt);

@@ -38,6 +38,14 @@ constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
 constexpr uint64_t ends_seed = 17;
 /// Two things closer than this are in the same place [m].
 constexpr double one_place_m = 0.01;
+/// A luminaire outside whose light hits no wall, but that is this close above the ceiling of a
+/// room, was meant to be inside [m].
+constexpr double above_ceiling_m = 1;
+/// Thickness of a ceiling with its beams, at most, and steps in which a room is sought below it
+/// [m].
+constexpr double ceiling_depth_m = 1, ceiling_step_m = 0.05;
+/// People who walk this close to a luminaire on a roof have it for themselves [m].
+constexpr double roof_way_m = 10;
 /// A panel that represents the sky is several times as large as the building; no lamp is.
 constexpr double times_building = 5;
 /// Two directions within 8 degrees count as equal.
@@ -136,6 +144,42 @@ const Object* unsaid_body(const Site& site, const std::vector<Bounds>& boxes, co
   return nullptr;
 }
 
+/// Whether people walk at this height near a place: a roof may be an escape route.
+bool people_walk_near(const SceneDescription& scene, const glm::dvec3& place, double floor_m) {
+  const auto is_close = [&](const glm::dvec3& foot) {
+    return std::abs(foot.z - floor_m) < above_ceiling_m &&
+           glm::length(glm::dvec2(foot - place)) < roof_way_m;
+  };
+  for (const EscapeRoute& route : scene.routes)
+    for (const Walker& walker : steps_along(route, 1))
+      if (is_close(walker.foot)) return true;
+  return std::any_of(scene.open_areas.begin(), scene.open_areas.end(), [&](const auto& area) {
+    return std::abs(area.z_m - floor_m) < above_ceiling_m;
+  });
+}
+
+/// Light on a roof that looks to the sky is meant to be there.
+bool looks_up(const Emitter& e) {
+  return e.distribution != Distribution::isotropic && e.frame.axes[2].z > 0.5;
+}
+
+/// The ceiling above which a place outside is: the object below it, where there is a room under
+/// that.
+const Object* ceiling_below(const Site& site, const GeometryAccess& access,
+                            const glm::dvec3& place) {
+  const auto below = solid_ahead(site, access, place, glm::dvec3(0, 0, -1), above_ceiling_m, false);
+  if (!below || below->surface >= site.scene.objects.size()) return nullptr;
+  glm::dvec3 under = place;
+  under.z -= static_cast<double>(below->distance_m);
+  if (people_walk_near(site.scene, place, under.z)) return nullptr;
+  for (double depth = ceiling_step_m; depth < ceiling_depth_m; depth += ceiling_step_m) {
+    under.z -= ceiling_step_m;
+    if (site.in_body(access, under)) continue;
+    return site.is_outside(access, under) ? nullptr : &site.scene.objects[below->surface];
+  }
+  return nullptr;
+}
+
 /// What is wrong with one emitter's place; sets `stands_outside` if it is outside. `boxes`: of all
 /// objects.
 std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& access,
@@ -186,6 +230,13 @@ std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& acc
              object_text(*body), e.name)}};
   if (!site.is_outside(access, middle)) return std::nullopt;
   stands_outside = 1;
+  const Object* ceiling = looks_up(e) ? nullptr : ceiling_below(site, access, middle);
+  if (ceiling != nullptr)
+    return Finding{Severity::error,
+                   "outside",
+                   {e.place, fmt::format("{} is above the ceiling: {} lies below it, and a room "
+                                         "below that; lower it into the room",
+                                         emitter_text(e), object_text(*ceiling))}};
   if (ends.close_back > 0.5)
     return Finding{
         Severity::warning,

@@ -214,10 +214,12 @@ void take_sign_like(KeyReader& keys, const std::string& like, Sign& sign) {
 }
 
 void read_design_sign(const toml::Table& stated, SceneReading& reading, DesignSettings& design) {
-  const toml::Table table = with_type(stated, "sign_type", reading);
+  const auto typed = with_type(stated, "sign_type", reading);
+  const toml::Table table = typed.value_or(stated);
   KeyReader keys(table, {"design.sign"}, reading);
   DesignSignType type;
   type.name = read_name(keys, "sign of a design");
+  if (!typed) return;
   type.place = keys.place();
   type.stated = true;
   type.sign.place = type.place;

@@ -390,12 +390,14 @@ void resolve_bodies(SceneReading& reading) {
 }
 
 void read_luminaire(const toml::Table& stated, SceneReading& reading) {
-  const toml::Table table = with_type(stated, "luminaire_type", reading);
+  const auto typed = with_type(stated, "luminaire_type", reading);
+  const toml::Table table = typed.value_or(stated);
   KeyReader keys(table, {"luminaire"}, reading);
   Emitter e;
+  e.name = read_name(keys, "luminaire or emitter");
+  if (!typed) return;
   e.ifc_guid = keys.text("ifc_guid");
   e.place = keys.place();
-  e.name = read_name(keys, "luminaire or emitter");
   e.frame = read_aim(keys);
   read_photometric_light(keys, e);
   read_product(keys, e.facts);

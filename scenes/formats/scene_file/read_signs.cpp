@@ -265,12 +265,14 @@ void make_generic_sign(Sign& sign) {
 }
 
 void read_sign(const toml::Table& stated, SceneReading& reading) {
-  const toml::Table table = with_type(stated, "sign_type", reading);
+  const auto typed = with_type(stated, "sign_type", reading);
+  const toml::Table table = typed.value_or(stated);
   KeyReader keys(table, {"sign"}, reading);
   Sign sign;
+  sign.name = read_name(keys, "sign");
+  if (!typed) return;
   sign.ifc_guid = keys.text("ifc_guid");
   sign.place = keys.place();
-  sign.name = read_name(keys, "sign");
   const glm::dvec3 position = keys.point("position");
   const auto facing = keys.maybe_direction("facing");
   const glm::dvec3 up = keys.direction("up");

@@ -22,13 +22,14 @@ void read_sign_type(const toml::Table& table, SceneReading& reading) {
   keep_type(table, "sign_type", reading);
 }
 
-toml::Table with_type(const toml::Table& table, const std::string& kind, SceneReading& reading) {
+std::optional<toml::Table> with_type(const toml::Table& table, const std::string& kind,
+                                     SceneReading& reading) {
   const toml::Value* type = table.find("type");
   if (type == nullptr || type->as_text() == nullptr) return table;
   const auto at = reading.types.find(kind + " " + *type->as_text());
   if (at != reading.types.end()) return table.over(*at->second);
   reading.require(kind, *type->as_text(), type->place());
-  return table;
+  return std::nullopt;
 }
 
 }  // namespace luxodus

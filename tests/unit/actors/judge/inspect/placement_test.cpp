@@ -76,9 +76,20 @@ material = "grey50"
   check_no_alarm(found_in(slab + ceiling + panel("[3, 0, 3.095]")));
 }
 
-TEST_CASE("a lamp above the ceiling, whose light does not enter, is reported", "[inspect]") {
-  check_found(found_in(furnished_room + panel("[3, 0, 3.05]")), Severity::warning,
-              "emitter \"panel\" stands outside, and 100 % of its light ends on the outer side of");
+TEST_CASE("a lamp above the ceiling is an error", "[inspect]") {
+  const char* above = "is above the ceiling: \"room\"";
+  check_found(found_in(furnished_room + panel("[3, 0, 3.05]")), Severity::error, above);
+  check_found(found_in(furnished_room + lamp_at("lost", "[3, 0, 3.6]")), Severity::error, above);
+  const std::string roof_slab = box("[0, -2, 3]", "[12, 2, 3.4]");
+  check_found(found_in(furnished_room + roof_slab + lamp_at("lost", "[3, 0, 3.7]")),
+              Severity::error, "is above the ceiling: \"box\"");
+  // High above the roof, and on a roof on which people walk.
+  check_no_alarm(found_in(furnished_room + lamp_at("mast", "[3, 0, 7]")));
+  const std::string roof_way =
+      "[[route]]\nname = \"roof\"\npath = [[1, 0, 3], [11, 0, 3]]\nwidth = 1\n";
+  CHECK(that_say(found_in(furnished_room + roof_way + lamp_at("roof", "[3, 0, 3.9]")),
+                 "above the ceiling")
+            .empty());
   // On the roof, and facing away from it.
   const auto roof = found_in(furnished_room + panel("[3, 0, 3.05]", "direction = [0, 0, 1]\n"));
   check_no_alarm(roof);

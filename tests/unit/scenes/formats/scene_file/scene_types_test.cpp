@@ -53,6 +53,7 @@ TEST_CASE("an unknown type, or one with keys that types must not have, is report
   SceneFolder folder;
   const std::string absent = all_problems(folder.read(typed_lamp));
   CHECK(absent.find("'round'") != std::string::npos);
+  CHECK(absent.find("is missing") == std::string::npos);  // keys that the type would have
   const std::string odd = all_problems(folder.read(
       typed_lamp +
       "[[luminaire_type]]\nname = \"round\"\nfile = \"lamp.ies\"\nposition = [1, 2, 3]\n"));
