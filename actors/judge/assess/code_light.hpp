@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "actors/judge/assess/level_screens.hpp"
-#include "actors/judge/assess/route_floor.hpp"
+#include "actors/judge/inspect/route_floor.hpp"
 #include "actors/judge/inspect/building.hpp"
 #include "scenes/emergency/rules.hpp"
 

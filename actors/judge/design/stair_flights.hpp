@@ -1,5 +1,5 @@
 // Flights of stairs that are objects of the scene. Those that routes climb: FlightOfRoute in
-// actors/judge/assess/route_floor.hpp. Pure functions; any thread.
+// actors/judge/inspect/route_floor.hpp. Pure functions; any thread.
 #pragma once
 
 #include <vector>

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "actors/judge/inspect/route_floor.hpp"
 #include "actors/judge/inspect/same_place.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "actors/judge/inspect/ways_size.hpp"
@@ -403,6 +404,16 @@ std::string dark_lamp_near(const SceneDescription& scene, const glm::dvec3& plac
       emitter_text(*nearest), nearest->place.line, length_text(least));
 }
 
+/// Along the middle of a route and both quarters of its width; on stairs on their treads.
+std::vector<glm::dvec3> places_on_way(const Site& site, const EscapeRoute& route) {
+  const RouteFloor floor(site.building);
+  std::vector<glm::dvec3> out;
+  for (const double aside : {-route.width_m / 4, 0.0, route.width_m / 4})
+    for (const GridLeg& leg : floor.line(route, aside, grid_m))
+      out.insert(out.end(), leg.places.begin(), leg.places.end());
+  return out;
+}
+
 void tell_dark_ways(const Site& site, const std::vector<uint32_t>& luminaires, Findings& out) {
   const auto tell = [&](const std::string& of, const SourcePlace& place, const DarkPlaces& found) {
     if (static_cast<double>(found.dark) <= dark_share * static_cast<double>(found.all)) return;
@@ -415,7 +426,7 @@ void tell_dark_ways(const Site& site, const std::vector<uint32_t>& luminaires, F
   };
   for (const EscapeRoute& route : site.scene.routes)
     tell("route \"" + route.name + "\"", route.place,
-         dark_places(site, luminaires, places_within(route, route.width_m / 4, grid_m)));
+         dark_places(site, luminaires, places_on_way(site, route)));
   for (const AssessedArea& area : site.scene.open_areas)
     tell("open area \"" + area.name + "\"", area.place,
          dark_places(site, luminaires, places_within(area, 0.5, grid_m)));

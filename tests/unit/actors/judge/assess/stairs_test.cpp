@@ -1,6 +1,7 @@
 // Tests routes over stairs: points of calculation stand on treads wherever the line is drawn, what
 // is left out is counted, and each tread needs direct light.
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
+#include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
 namespace luxodus {
 namespace {
@@ -48,6 +49,7 @@ TEST_CASE("points of a flight stand on its treads, wherever its line is drawn",
       CHECK(check_of(assessed(text, "en1838-2024"), RuleId::E5).verdict == CheckVerdict::pass);
       for (const PlanLevel& level : a.levels)
         for (const PlanPoint& point : level.points) CHECK(point.lux > 0.5);
+      CHECK(inspection::that_say(inspection::found_in(text), "no direct light").empty());
     }
 }
 

@@ -1,4 +1,4 @@
-#include "actors/judge/assess/route_floor.hpp"
+#include "actors/judge/inspect/route_floor.hpp"
 
 #include <algorithm>
 #include <cmath>
