@@ -254,7 +254,7 @@ std::string subjects_text(const Texts& t, const CheckGroup& group) {
   std::string out;
   for (size_t i = 0; i < std::min(group.size(), most); ++i) {
     const Subject& subject = worse_of(group[i]).subject;
-    out += out.empty() ? t.subject(subject) : ", \"" + subject.name + "\"";
+    out += out.empty() ? t.subject(subject) : ", " + t.say("name.quoted", subject.name);
   }
   return group.size() > most ? t.say("checks.and_more", out, group.size() - most) : out;
 }

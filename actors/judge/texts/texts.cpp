@@ -99,7 +99,7 @@ std::string Texts::remarks(const Remarks& remarks) const {
 }
 
 std::string Texts::subject(const Subject& subject) const {
-  const std::string quoted = "\"" + subject.name + "\"";
+  const std::string quoted = say("name.quoted", subject.name);
   if (subject.kind == SubjectKind::emphasis)
     return quoted + " (" +
            word("emphasis", emphasis_words.at(static_cast<size_t>(subject.emphasis))) + ")";
