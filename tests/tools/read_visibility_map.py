@@ -69,6 +69,15 @@ def load_by_hand(file):
     return axes, arrays["vis"][0], arrays["vis"][1], arrays["meta"][1][0]
 
 
+def load_map(file, by_hand):
+    if not by_hand:
+        try:
+            return load_by_numpy(file)
+        except ImportError:
+            pass
+    return load_by_hand(file)
+
+
 def nearest(axis, value):
     """The index of the nearest coordinate, at least that of an end."""
     above = next((i for i, at in enumerate(axis) if at >= value), len(axis))
@@ -107,10 +116,9 @@ def main():
     parser.add_argument("--by-hand", action="store_true", help="without numpy")
     given = parser.parse_args()
     try:
-        load = load_by_hand if given.by_hand else load_by_numpy
-        axes, shape, vis, meta = load(given.file)
-    except ImportError:
-        axes, shape, vis, meta = load_by_hand(given.file)
+        axes, shape, vis, meta = load_map(given.file, given.by_hand)
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+        sys.exit(f"{given.file}: {error}")
     times, xs, ys = axes
     description = json.loads(meta)
     signs = description["waypoints"]

@@ -245,14 +245,18 @@ SignLook SignsInState::look_with_glare(const View& view, const ViewLight& light,
   return look;
 }
 
+SignsInState::View SignsInState::without_glare(const View& view) {
+  View out = view;
+  out.exact_veils = true;
+  std::fill(out.veils_cd_m2.begin(), out.veils_cd_m2.end(), 0.0);
+  return out;
+}
+
 SignEstimate SignsInState::answer(const GeometryAccess& access, const glm::dvec3& eye,
                                   View& view) const {
   SignEstimate estimate = estimate_of(judge(view));
   if (view.exact_veils || estimate.answer != SignAnswer::undecided) return estimate;
-  View unglared = view;
-  unglared.exact_veils = true;
-  std::fill(unglared.veils_cd_m2.begin(), unglared.veils_cd_m2.end(), 0.0);
-  const SignEstimate best = estimate_of(judge(unglared));
+  const SignEstimate best = estimate_of(judge(without_glare(view)));
   if (best.answer == SignAnswer::undecided && best.surely_seen == estimate.surely_seen)
     return estimate;
   const double age = judged_.scene.assessment.age_years;
@@ -276,9 +280,11 @@ Sight SignsInState::judge(const View& view, const Doubt& doubt) const {
 }
 
 SignsInState::Needs SignsInState::needs_of(const View& view) const {
-  const SignEstimate now = estimate_of(judge(view));
+  // Glare is computed once it is all that is open.
+  const View& clear = view.exact_veils ? view : without_glare(view);
+  const SignEstimate now = estimate_of(judge(clear));
   const auto decides = [&](const Doubt& doubt) {
-    return decides_more(estimate_of(judge(view, doubt)), now);
+    return decides_more(estimate_of(judge(clear, doubt)), now);
   };
   if (!decides(next_round)) return {};
   const bool by_noise = decides({next_round.noise, 1}), by_bound = decides({1, next_round.bound});

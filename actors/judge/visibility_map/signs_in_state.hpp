@@ -97,6 +97,7 @@ class SignsInState {
   void find_near(const GeometryAccess& access, const glm::dvec3& eye, View& view) const;
   /// The answer; computes the glare of the view if its bound alone does not decide.
   SignEstimate answer(const GeometryAccess& access, const glm::dvec3& eye, View& view) const;
+  static View without_glare(const View& view);
   /// Largest relative error of what its line lets pass.
   static double line_error(const View& view);
   Sight judge(const View& view, const Doubt& doubt = {}) const;

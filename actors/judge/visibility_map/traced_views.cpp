@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <tuple>
+#include <algorithm>
+#include <cmath>
 
 #include "actors/results/run/run_executor.hpp"
 
@@ -14,10 +14,18 @@ namespace {
 /// Factor in compile_scene's number of paths: 0.1 of the particles, divided among the parts.
 constexpr double paths_per_particle = 0.1;
 
+/// False: a batch found more light than a tally counts, as an eye close to a lamp may.
+bool is_counted(const ViewLight& light) {
+  bool all = true;
+  for (const PartLight& part : light)
+    PartLight::each([&](const Uncertain& one) { all = all && std::isfinite(one.value); }, part);
+  return all;
+}
+
 }  // namespace
 
 size_t TracedViews::add(const glm::dvec3& eye, uint32_t sign, bool back) {
-  views_.push_back({eye, sign, back, 0, {}});
+  views_.push_back({eye, sign, back, 0, false, {}});
   return views_.size() - 1;
 }
 
@@ -45,9 +53,17 @@ void TracedViews::pool(const CompiledScene& scene, const Totals& totals, double 
   for (const EyeTarget& target : scene.eye_targets) {
     View& view = views_[views[target.observer]];
     if (scene.signs[target.sign].back != view.back) continue;
+    std::vector<ViewLight> round;
+    for (size_t mixture = 0; mixture < mixtures; ++mixture)
+      round.push_back(read_view(readout, scene, target, mixture));
+    view.lost = view.lost || !std::all_of(round.begin(), round.end(), is_counted);
+    if (view.lost) {
+      view.paths = 0;
+      continue;
+    }
     view.light.resize(mixtures);
     for (size_t mixture = 0; mixture < mixtures; ++mixture)
-      view.light[mixture].add(read_view(readout, scene, target, mixture), paths);
+      view.light[mixture].add(round[mixture], paths);
     view.paths += paths;
   }
 }
@@ -74,7 +90,6 @@ Result<void> TracedViews::trace(const std::vector<size_t>& views, int64_t paths,
   if (reason.value() == StopReason::interrupted) return problem("interrupted");
   all_paths_ += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
                 static_cast<int64_t>(3 * run.scene().eye_targets.size());
-  if (auto ok = Readout(run.scene(), run.totals()).check_range(); !ok) return ok;
   pool(run.scene(), run.totals(), static_cast<double>(paths * view_batches), views);
   return {};
 }

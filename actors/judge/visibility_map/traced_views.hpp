@@ -28,7 +28,8 @@ class TracedViews {
   Result<void> trace(const std::vector<size_t>& views, int64_t paths,
                      const std::atomic<bool>& interrupt, const AssessProgress& progress);
 
-  /// Paths to each part of a view so far; 0 also of a view that is edge-on within rounding.
+  /// Paths to each part of a view so far; 0 also of a view that is edge-on within rounding, and of
+  /// one in which a batch found more light than is counted.
   double paths(size_t view) const { return views_[view].paths; }
   /// With errors by the spread of the paths alone. Requires: paths(view) > 0.
   const ViewLight& light(size_t view, size_t mixture) const {
@@ -42,6 +43,7 @@ class TracedViews {
     uint32_t sign;
     bool back;
     double paths = 0;
+    bool lost = false;               // a batch found more light than is counted
     std::vector<PooledLight> light;  // by mixture
   };
   RoundState state_of(const std::vector<size_t>& views, int64_t paths) const;
