@@ -10,6 +10,7 @@
 #include "scenes/light/transport/emission.hpp"
 #include "scenes/light/transport/flame_boxes.hpp"
 #include "scenes/light/transport/flame_line.hpp"
+#include "scenes/light/transport/flame_moment.hpp"
 #include "scenes/light/transport/group_light.hpp"
 #include "scenes/light/transport/next_event.hpp"
 #include "scenes/light/transport/textures.hpp"
@@ -98,10 +99,18 @@ class EmittersMet {
   /// faces, the sign that was hit, flames; each multiplied by the transmittance of the media before
   /// it.
   void add_along(EyePath& p, const Hit& hit) {
+    moment_of_path_ = shows_moment(p) ? moment_ : nullptr;
+    if (moment_of_path_ != nullptr)
+      moment_of_path_->meet(p.ray, line_end(scene_, hit.distance), p.bands);
     add_faces(p, hit.distance * face_slack);  // an emitter's body is as far away as its face
     add_emitted_by_sign(p, hit);
     add_flames_met(p, hit.distance);
   }
+
+  /// Rays that no diffuse event has scattered show steady flames at a moment; null: their mean.
+  /// Requires: it outlives its use.
+  void show(FlameMoment* moment) { moment_ = moment; }
+  FlameMoment* moment() const { return moment_; }
 
   /// Of these, emitting faces within `reach`.
   void add_faces(EyePath& p, Real reach) {
@@ -118,7 +127,7 @@ class EmittersMet {
         const double sent =
             emitted_radiance(emitter, e.point, -p.ray.direction, p.bands.band(i), resolver_);
         const double past_body = p.bodies.empty() ? 1 : p.share_past_body(emitter.body, i);
-        p.add(i, {emitter.group, weight * sent * through_[i] * past_body});
+        p.add(i, {emitter.group, weight * sent * through_[i] * past_body * of_moment(i, distance)});
       }
       // Continue past it by more than rounding, or the same face would be hit again.
       const Real step = e.distance * face_slack + scene_.min_offset_m;
@@ -146,6 +155,28 @@ class EmittersMet {
   /// (-1). False if the ray passes through none of them.
   bool add_flames(const Ray& ray, Real length, int band, int medium, double weight,
                   GroupLight& into) {
+    return add_flames_by(
+        ray, length, band, medium, [&](int) { return weight; }, into);
+  }
+
+ private:
+  static constexpr Real face_slack = 1 + 1e-5_r;
+
+  static bool shows_moment(const EyePath& p) {
+    return p.counted == EmitterHits::all && !p.diffused;
+  }
+
+  /// Factor on light from a place of the path's ray, in the band in place `i`.
+  double of_moment(size_t i, Real distance) const {
+    return moment_of_path_ == nullptr
+               ? 1
+               : moment_of_path_->on_light_from(static_cast<double>(distance), i);
+  }
+
+  /// `weight_of(medium)`: of its flame.
+  template <class WeightOf>
+  bool add_flames_by(const Ray& ray, Real length, int band, int medium, const WeightOf& weight_of,
+                     GroupLight& into) {
     double depth = 0;
     bool met = false;
     for_each_segment(
@@ -160,16 +191,14 @@ class EmittersMet {
             if (flame == nullptr) continue;  // the scenario removes it
             const double power = flame->power_w[static_cast<size_t>(band)] * part.density;
             into.add(flame->group, band,
-                     weight * power * std::exp(-depth) * through / (4 * static_cast<double>(pi_f)));
+                     weight_of(part.medium) * power * std::exp(-depth) * through /
+                         (4 * static_cast<double>(pi_f)));
           }
           depth += tau;
           return depth < 50;
         });
     return met || depth >= 50;
   }
-
- private:
-  static constexpr Real face_slack = 1 + 1e-5_r;
 
   /// Balance-heuristic weight of hitting an emitting face, `distance` along the path's ray.
   double weight_of_face(const EyePath& p, uint32_t emitter, const EmissionPoint& point,
@@ -196,7 +225,7 @@ class EmittersMet {
         weight = weight_of_sign(p, index, group, point, hit.distance);
         next_event_.media().transmittances(p.ray, hit.distance, p.bands, through_, resolver_);
       }
-      p.add(i, {group, weight * own.radiance * through_[i]});
+      p.add(i, {group, weight * own.radiance * through_[i] * of_moment(i, hit.distance)});
     }
   }
 
@@ -218,7 +247,14 @@ class EmittersMet {
     if (p.counted == EmitterHits::all) {
       bool met = true;
       for (size_t i = 0; i < p.bands.count() && met; ++i)
-        met = add_flames(p.ray, length, p.bands.band(i), -1, p.weight * p.bands.light(i), p.into);
+        met = add_flames_by(
+            p.ray, length, p.bands.band(i), -1,
+            [&](int medium) {
+              const double weight = p.weight * p.bands.light(i);
+              return moment_of_path_ == nullptr ? weight
+                                                : weight * moment_of_path_->on_emission(medium, i);
+            },
+            p.into);
       return;
     }
     for (const FlameBox& flame : flames_) add_flame_hit(p, flame, length);
@@ -283,6 +319,8 @@ class EmittersMet {
   NextEvent<Resolver>& next_event_;
   std::vector<FlameBox> flames_;
   BandValues through_;
+  FlameMoment* moment_ = nullptr;
+  FlameMoment* moment_of_path_ = nullptr;  // null where the path shows the mean
 };
 
 }  // namespace luxodus

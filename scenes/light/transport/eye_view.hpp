@@ -68,7 +68,8 @@ class EyeView {
     const std::span<const double> emitted = straight_.by_band();
     first.emitted.assign(emitted.begin(), emitted.end());
     describe_surface(hit, rest, before, first);
-    first.transmittance = met.passed[static_cast<size_t>(brightest_band_)];
+    first.transmittance =
+        met.passed[static_cast<size_t>(brightest_band_)] * of_moment(ray, bands, met.hit);
     if (panes == 0) return;
     first.transmittance = medium_transmittance(scene_, ray, line_end(scene_, before + hit.distance),
                                                brightest_band_, resolver_);
@@ -76,6 +77,15 @@ class EyeView {
   }
 
  private:
+  /// Factor of flames on light from the hit, in the band with the most lumens per watt.
+  double of_moment(const Ray& ray, const PathBands& bands, const Hit& hit) {
+    FlameMoment* const moment = emitters_.moment();
+    if (moment == nullptr) return 1;
+    moment->meet(ray, line_end(scene_, hit.distance), bands);
+    return moment->on_light_from(static_cast<double>(hit.distance),
+                                 static_cast<size_t>(brightest_band_));
+  }
+
   /// Continues through a pane or an open surface on the same line; false if anything else ends it.
   bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
     const TriangleRecord& t = *hit.triangle;

@@ -214,6 +214,7 @@ class PathTracer {
   /// Continues `passing` of the parts at the surface.
   void split_at_surface(Path path, const Hit& hit, int passing, int parts, double more) {
     if (scene_.features.media != MediaNeed::none) reach_surface(path, more);
+    if (!pass_flames(path, hit.distance)) return;
     const SurfaceEvent event = meet(path, hit);
     path.weight *= static_cast<double>(passing) / parts;
     add_reflected(path, event);
@@ -235,7 +236,7 @@ class PathTracer {
       pass_media(part, flights_[i]);
       next_event_.add_collided(segment, flights_[i], emitters_near, passed_, path.weight, path.into,
                                ends);
-      if (part.bands.brightest() <= 0) continue;
+      if (!pass_flames(part, flights_[i].t) || part.bands.brightest() <= 0) continue;
       part.weight *= segment.share;
       const CachedLight cached = add_cached_of_medium(part, flights_[i], ends);
       turn_in_medium(part, flights_[i], segment, numbers.of_part(static_cast<int>(i)), cached);
@@ -259,9 +260,10 @@ class PathTracer {
       const RaySegment segment{path.ray, line_end(scene_, hit.distance), 1, path.bands};
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
+      const bool passes = pass_flames(path, flight.collided ? flight.t : hit.distance);
       const double weight = path.weight;  // before the scattering
-      const bool alive =
-          flight.collided ? scatter(path, flight, segment, ends) : meet_surface(path, hit, ends);
+      const bool alive = passes && (flight.collided ? scatter(path, flight, segment, ends)
+                                                    : meet_surface(path, hit, ends));
       // Last, since learning cells may drop the cell of the hit.
       if (scene_.features.media != MediaNeed::none)
         next_event_.add_scattered(segment, flight, passed_, weight, path.into, ends);
@@ -302,6 +304,16 @@ class PathTracer {
     } else if (flight.collided) {
       for (size_t i = 0; i < p.bands.count(); ++i) p.bands.scale(i, passed_[i]);
     }
+  }
+
+  /// Light from a place of a ray that shows steady flames at a moment. False: they hide it all.
+  bool pass_flames(Path& p, Real distance) {
+    FlameMoment* const moment = met_.moment();
+    if (moment == nullptr || p.diffused) return true;
+    moment->meet(p.ray, std::min(distance, line_end(scene_, distance)), p.bands);
+    for (size_t i = 0; i < p.bands.count(); ++i)
+      p.bands.scale(i, moment->on_light_from(static_cast<double>(distance), i));
+    return p.bands.brightest() > 0;
   }
 
   bool reflects_diffusely(const Hit& hit, const Ray& ray) const {

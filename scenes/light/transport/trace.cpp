@@ -2,6 +2,7 @@
 
 #include "scenes/light/transport/direct.hpp"
 #include "scenes/light/transport/eye_paths.hpp"
+#include "scenes/light/transport/flame_moment.hpp"
 #include "scenes/light/transport/particle_batches.hpp"
 
 namespace luxodus {
@@ -79,7 +80,13 @@ class ResolverPictureTracer final : public PictureTracer {
         eye_(scene, resolver_, seed, RandomStream::picture, sight_.get()),
         set_(seed, RandomStream::picture),
         stratified_(scene.description->run.stratified),
-        light_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {}
+        light_(scene.groups.size(), static_cast<size_t>(scene.bands.count())),
+        scene_(scene) {}
+
+  void show_flames_at(double time_s) override {
+    if (!has_steady_flames(scene_)) return;
+    eye_.emitters().show(&moment_.emplace(scene_, time_s));
+  }
 
   void start(uint64_t set, uint32_t count, uint32_t path) override {
     if (!stratified_) return eye_.random().start(set + path);
@@ -108,6 +115,8 @@ class ResolverPictureTracer final : public PictureTracer {
   SobolSet set_;
   bool stratified_;
   GroupLight light_;
+  const CompiledScene& scene_;
+  std::optional<FlameMoment> moment_;
 };
 
 bool has_choice(const CompiledScene& scene) {

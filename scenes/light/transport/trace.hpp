@@ -46,6 +46,8 @@ DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& ac
 class PictureTracer {
  public:
   virtual ~PictureTracer() = default;
+  /// Shows steady flames at a moment (flame_shape.hpp) instead of their mean.
+  virtual void show_flames_at(double time_s) = 0;
   /// Starts path number `path` of `count` in a set whose first draws are low-discrepancy points.
   virtual void start(uint64_t set, uint32_t count, uint32_t path) = 0;
   virtual Real uniform() = 0;

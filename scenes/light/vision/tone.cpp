@@ -269,12 +269,24 @@ double CameraCurve::slope_at(double exposed) const {
 double CameraCurve::shown(double cd_m2) const {
   const double exposed = factor * cd_m2;
   if (!(exposed > 0)) return 0;
+  const double value = neutral(exposed);
+  return film ? film_contrast(value) : value;
+}
+
+double CameraCurve::neutral(double exposed) const {
   if (exposed <= knee) return bent(exposed);
   if (exposed >= white) return 1;
   const double begin = bent(knee);
   const double t = (exposed - knee) / (white - knee);
   const double slope = slope_at(knee) * (white - knee) / (1 - begin);
   return begin + (1 - begin) * slope * t / (1 + (slope - 1) * t);
+}
+
+double film_contrast(double shown) {
+  constexpr double power = 0.93, toe = 0.012;
+  if (shown >= sign_level || !(shown > 0)) return shown;
+  const auto curve = [](double v) { return std::pow(v, power) * v / (v + toe); };
+  return sign_level * curve(shown) / curve(sign_level);
 }
 
 CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2) {
@@ -293,19 +305,38 @@ CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2) {
   return curve;
 }
 
-Exposure exposure_of(const XyzPicture& picture, double sign_cd_m2) {
-  double log_sum = 0, shown_sum = 0;
+void LightMeter::add(const LightMeter& other) {
+  pixels += other.pixels;
+  log_luminance += other.log_luminance;
+  brightest_shown += other.brightest_shown;
+  white_cd_m2 = std::max(white_cd_m2, other.white_cd_m2);
+  sign_cd_m2 = std::max(sign_cd_m2, other.sign_cd_m2);
+}
+
+Exposure LightMeter::exposure() const {
+  if (pixels == 0) return {};
+  return {std::exp(log_luminance / pixels) / (brightest_shown / pixels), white_cd_m2, sign_cd_m2};
+}
+
+LightMeter metered(const XyzPicture& picture, double sign_cd_m2) {
+  LightMeter meter;
   std::vector<double> lit;
   for (size_t i = 0; i < picture.pixels(); ++i) {
     const Pixel p = pixel(picture, i);
     if (p.luminance <= darkest_cd_m2) continue;
-    log_sum += std::log(p.luminance);
-    shown_sum += brightest_shown(p.xyz);
+    meter.log_luminance += std::log(p.luminance);
+    meter.brightest_shown += brightest_shown(p.xyz);
     lit.push_back(p.luminance);
   }
   if (lit.empty()) return {};
-  const auto count = static_cast<double>(lit.size());
-  return {std::exp(log_sum / count) / (shown_sum / count), white_of(std::move(lit)), sign_cd_m2};
+  meter.pixels = static_cast<double>(lit.size());
+  meter.white_cd_m2 = white_of(std::move(lit));
+  meter.sign_cd_m2 = sign_cd_m2;
+  return meter;
+}
+
+Exposure exposure_of(const XyzPicture& picture, double sign_cd_m2) {
+  return metered(picture, sign_cd_m2).exposure();
 }
 
 SrgbPicture tone_plain(const XyzPicture& picture, const CameraCurve& curve) {

@@ -6,6 +6,7 @@
 // only: signs are judged from luminance data. Pure functions; any thread.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "scenes/light/vision/picture.hpp"
@@ -28,12 +29,20 @@ struct CameraCurve {
   double bend = 0;  // one over the exposed value where the slope is halfway; 0: linear to the knee
   double knee = 0.7;  // exposed value where the shoulder begins; it reaches 1 at `white`
   double white = 1;   // exposed value, >= knee
+  bool film = false;  // film_contrast() of what would be shown
 
   double shown(double cd_m2) const;
   /// Display value of an exposed one up to the knee, and its derivative.
   double bent(double exposed) const;
   double slope_at(double exposed) const;
+  /// Display value of an exposed one, without the contrast of film. Requires: exposed > 0.
+  double neutral(double exposed) const;
 };
+
+/// A display value with the contrast of photographic film: deeper shadows (a toe), slightly lifted
+/// middle tones. It keeps sign_level and what is brighter; below, its slope in logarithms is at
+/// least 0.93, so legends keep their contrast.
+double film_contrast(double shown);
 
 /// Linear up to a knee, with a shoulder to `white_cd_m2`, if that shows a sign of this luminance at
 /// no more than sign_level. Otherwise all is compressed until it does, and the shoulder begins at
@@ -54,9 +63,30 @@ struct Exposure {
   }
 };
 
-/// The exposure for a picture whose brightest face of a sign has this luminance. Middle grey is the
+/// What the exposure of one picture, or of several together, follows from. Middle grey is the
 /// log-average luminance, over the largest luminance that a monitor shows of the colours in view.
+/// White and sign are the brightest of any picture.
+struct LightMeter {
+  double pixels = 0;           // with light
+  double log_luminance = 0;    // summed over them
+  double brightest_shown = 0;  // the same
+  double white_cd_m2 = 0;      // one pixel in a thousand of a picture exceeds it
+  double sign_cd_m2 = 0;       // brightest face of a sign
+
+  void add(const LightMeter& other);
+  Exposure exposure() const;
+};
+
+/// `sign_cd_m2`: the brightest face of a sign in the picture; 0: none.
+LightMeter metered(const XyzPicture& picture, double sign_cd_m2);
+/// The exposure of a picture of its own.
 Exposure exposure_of(const XyzPicture& picture, double sign_cd_m2);
+
+/// How a plain picture shows luminances beyond its exposure.
+enum class ToneStyle : uint8_t {
+  neutral,  // linear but for what the monitor cannot show
+  film,     // film_contrast
+};
 
 /// Pixels that are not finite or not positive are black. Luminance alone decides how bright a pixel
 /// is; a colour that the monitor cannot show so bright loses saturation (display_colour).

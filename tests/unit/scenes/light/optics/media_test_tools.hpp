@@ -14,7 +14,7 @@
 
 namespace luxodus::media_test {
 
-inline constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 inline constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Uniform numbers with a seed that is printed on failure and may be set.

@@ -11,7 +11,7 @@ using namespace luxodus;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const glm::dmat3 upright(1.0);
 const glm::dmat3 hanging(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1));
 

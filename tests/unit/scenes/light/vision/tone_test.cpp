@@ -139,6 +139,34 @@ TEST_CASE("the camera's curve is monotone, smooth at the knee, and ends at white
     }
 }
 
+TEST_CASE("the contrast of film deepens shadows, lifts middle tones and keeps lights",
+          "[vision][tone]") {
+  double before = 0;
+  for (const double v : even_logs(1e-5, 1, 2000)) {
+    CHECK(film_contrast(v) > before);
+    before = film_contrast(v);
+  }
+  CHECK(film_contrast(0) == 0);
+  CHECK(film_contrast(0.003) < 0.5 * 0.003);
+  CHECK(film_contrast(0.3) > 0.3);
+  CHECK(film_contrast(0.3) < 0.35);
+  for (const double light : {sign_level, 0.9, 1.0}) CHECK(film_contrast(light) == light);
+}
+
+TEST_CASE("pictures are metered together as if they were one", "[vision][tone]") {
+  const std::vector<double> dark = even_logs(0.01, 1, 500), bright = even_logs(5, 900, 500);
+  std::vector<double> both = dark;
+  both.insert(both.end(), bright.begin(), bright.end());
+  LightMeter meter = metered(row(dark), 0.4);
+  meter.add(metered(row(bright), 70));
+  meter.add(metered(row({0, 0, 0}), 0));  // of no light, and no weight
+  const Exposure together = meter.exposure(), one = exposure_of(row(both), 70);
+  CHECK(together.grey_cd_m2 == Approx(one.grey_cd_m2).epsilon(1e-12));
+  CHECK(together.sign_cd_m2 == 70);
+  CHECK(together.white_cd_m2 == exposure_of(row(bright), 70).white_cd_m2);
+  CHECK(LightMeter().exposure().white_cd_m2 == Exposure().white_cd_m2);
+}
+
 TEST_CASE("the live view's curve is that of pictures", "[vision][tone]") {
   // The same numbers stand in tests/view/unit/tone_test.mjs.
   const CameraCurve curve = camera_curve(1, 20, 70);
@@ -149,10 +177,12 @@ TEST_CASE("the live view's curve is that of pictures", "[vision][tone]") {
 
 TEST_CASE("the brightest face of a sign is shown at 0.8 or less, and contrasts below it stay",
           "[vision][tone]") {
+  const bool film = GENERATE(false, true);
   for (const double white : {1.0, 20.0, 1e4})
     for (const double sign : {0.3, 0.9, 3.0, 70.0, 4000.0, 1e6}) {
-      const CameraCurve curve = camera_curve(1, white, sign);
-      INFO("white " << white << ", sign " << sign);
+      CameraCurve curve = camera_curve(1, white, sign);
+      curve.film = film;
+      INFO("white " << white << ", sign " << sign << (film ? ", film" : ""));
       CHECK(curve.shown(sign) <= sign_level + 1e-12);
       if (curve.bend > 0) CHECK(curve.shown(sign) == Approx(sign_level));
       for (const double ratio : {1.1, 2.0, 5.0, 15.0, 1000.0})
