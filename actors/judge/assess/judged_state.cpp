@@ -353,6 +353,14 @@ bool is_flame(const Medium& medium) {
   return medium.emission && medium.kind != MediumKind::data_set;
 }
 
+Eye adapted_eye(const AssessmentSettings& people, const Scenario& scenario, double age_years) {
+  Eye eye{age_years};
+  eye.bleached_cd_m2 = equivalent_background_of(
+      people, scenario.operation,
+      scenario.says_seconds ? std::optional(scenario.seconds_after_failure) : std::nullopt);
+  return eye;
+}
+
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
   return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
     return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0 &&

@@ -9,6 +9,7 @@
 #include "actors/judge/record/assessment_record.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/emergency/rule_sets.hpp"
+#include "scenes/emergency/sight.hpp"
 #include "scenes/light/world/description.hpp"
 
 namespace luxodus {
@@ -52,6 +53,9 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
 /// the stated time after it; 0 in mains operation and where no time is stated.
 double equivalent_background_of(const AssessmentSettings& people, Operation operation,
                                 std::optional<double> seconds_after_failure);
+
+/// An eye of this age that has been where the people of the scene were, in a judged state.
+Eye adapted_eye(const AssessmentSettings& people, const Scenario& scenario, double age_years);
 
 /// Whether a scenario has media other than flames.
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario);

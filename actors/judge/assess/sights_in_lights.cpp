@@ -9,9 +9,9 @@
 #include <map>
 #include <tuple>
 
+#include "actors/judge/assess/arriving_beside.hpp"
 #include "actors/judge/inspect/building.hpp"
 #include "actors/results/run/run_executor.hpp"
-#include "scenes/emergency/veil.hpp"
 
 namespace luxodus {
 
@@ -38,11 +38,6 @@ struct RoundSize {
 /// minus surround.
 constexpr size_t values_of_light = 2;
 
-double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
-  return glm::degrees(
-      std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
-}
-
 /// The view of a sign before its light is known.
 SightRow row_of(const Stand& stand, const Sign& sign) {
   SightRow row;
@@ -57,49 +52,6 @@ SightRow row_of(const Stand& stand, const Sign& sign) {
   row.gaze_deg = stand.looks_ahead ? angle_deg(row.view.centre - row.eye, stand.observer.gaze)
                                    : std::numeric_limits<double>::quiet_NaN();
   return row;
-}
-
-/// Factors of a scene's source groups, by mixture.
-using Factors = std::vector<std::vector<double>>;
-
-Factors factors_of(const CompiledScene& scene, const std::vector<GroupMixture>& mixtures) {
-  Factors out;
-  for (const GroupMixture& mixture : mixtures) {
-    auto& factors = out.emplace_back();
-    for (const Group& group : scene.groups) factors.push_back(mixture.factor_of(group.name));
-  }
-  return out;
-}
-
-/// Light that arrives straight at an eye that looks at a sign, but for that of the sign.
-struct ArrivingBeside {
-  EyeLight at_eye;
-  std::vector<std::vector<double>> veils_cd_m2;  // veiling luminance, by age and mixture
-};
-
-/// Each part of an extended emitter, such as a flame, counts with its own direction and with the
-/// smoke before it.
-ArrivingBeside arriving_beside(const Building& building, const GeometryAccess& access,
-                               const SightRow& row, uint32_t sign, const std::vector<double>& ages,
-                               const Factors& factors) {
-  const CompiledScene& scene = building.scene();
-  const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
-  ArrivingBeside out;
-  out.veils_cd_m2.assign(ages.size(), std::vector<double>(factors.size(), 0.0));
-  for (const ArrivingLight& light :
-       direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
-    const CompiledEmitter& emitter = scene.emitters[light.emitter];
-    if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
-    const auto group = static_cast<size_t>(emitter.group);
-    out.at_eye.lux += light.illuminance_lx * factors.front()[group];
-    out.at_eye.clear_air_lux += light.clear_air_lx * factors.front()[group];
-    const double away_deg = angle_deg(glm::dvec3(light.direction), gaze);
-    for (size_t a = 0; a < ages.size(); ++a) {
-      const double part = light.illuminance_lx * veil_per_lux(away_deg, ages[a]);
-      for (size_t m = 0; m < factors.size(); ++m) out.veils_cd_m2[a][m] += part * factors[m][group];
-    }
-  }
-  return out;
 }
 
 /// Ages of the eyes that are judged: those of the assessment first, then the others.
@@ -134,7 +86,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
   auto made = Building::make(scene_, judged_.scenario, options_.threads);
   if (!made) return made.problem();
   const Building& building = *made.value();
-  const Factors factors = factors_of(building.scene(), judged_.mixtures());
+  const GroupFactors factors = factors_of(building.scene(), judged_.mixtures());
   const std::vector<double> ages = ages_of(scene_.assessment);
   stands_ = stands_of(scene_, observers_);
   if (stands_.size() * scene_.signs.size() > limits::sights)
@@ -159,7 +111,8 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
       if (stuck) row.sight.reason = remark(RemarkId::eye_in_solid);
       if (seen > 0 && !stuck) {
         row.sight.verdict = SightVerdict::undecided;
-        ArrivingBeside beside = arriving_beside(building, access, row, s, ages, factors);
+        ArrivingBeside beside =
+            arriving_beside(building, access, row.eye, row.view.centre, s, ages, factors);
         row.eye_light = beside.at_eye;
         auto& veils_by_age = beside.veils_cd_m2;
         Faced& view = faced[i].emplace_back(
@@ -233,12 +186,7 @@ SignLook SightsInLights::look_in(const Faced& faced, size_t mixture) const {
 }
 
 Eye SightsInLights::eye_of(double age_years) const {
-  Eye eye{age_years};
-  const Scenario& now = judged_.scenario;
-  eye.bleached_cd_m2 = equivalent_background_of(
-      scene_.assessment, now.operation,
-      now.says_seconds ? std::optional(now.seconds_after_failure) : std::nullopt);
-  return eye;
+  return adapted_eye(scene_.assessment, judged_.scenario, age_years);
 }
 
 SightRules SightsInLights::rules_for(double age_years) const {

@@ -60,6 +60,8 @@ class PooledLight {
   void add(const ViewLight& round, double paths);
   /// With errors that are not below those of limits::least_spread for as many paths.
   ViewLight mean() const;
+  /// With errors by the spread of the paths alone.
+  const ViewLight& sample_mean() const { return mean_; }
 
  private:
   ViewLight mean_{};
