@@ -8,6 +8,7 @@
 
 #include "tests/examples/program_kit.hpp"
 #include "tests/kit/replaced.hpp"
+#include "tests/kit/small_fire.hpp"
 
 using namespace luxodus::program;
 using Catch::Contains;
@@ -254,4 +255,90 @@ TEST_CASE("people become bodies in scenes for pictures", "[program][walk]") {
       scene.place.luxodus("check " + (scene.place.out / "figures/3s.toml").string());
   INFO(checked.err);
   CHECK(checked.code == 0);
+}
+
+TEST_CASE("smoke between two states is linear, and groups come from their own light",
+          "[program][walk]") {
+  using namespace luxodus::test;
+  const TemporaryFolder folder;
+  SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {8, 4, 6});
+  const auto even = [&](float v) { return cell_values(mesh, [v](int, int, int) { return v; }); };
+  folder.write("a.sf",
+               slice_file(mesh, "SOOT EXTINCTION COEFFICIENT", {{0, even(0)}, {20, even(0.8F)}}));
+  folder.write("fire.smv", index_of_meshes({mesh}) +
+                               slice_entry(1, true, mesh, "a.sf", "SOOT EXTINCTION COEFFICIENT"));
+  fs::copy_file(fs::path(LUX_SOURCE_DIR) / "scenes/library/signs/exit_straight.svg",
+                folder / "exit.svg");
+  folder.write("people.txt", "# framerate: 1\n# id frame x/m y/m z/m\n1 0 3 1 0\n1 20 1 1 0\n");
+  folder.write("room.toml", R"(
+[time]
+from = 0
+to = 20
+step = 20
+mains_fail_at = 0
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 2, 3]
+material = "grey50"
+[[emitter]]
+name = "lamp"
+shape = "point"
+distribution = "isotropic"
+position = [2, 1, 2.9]
+flux_lm = 300
+emergency = "maintained"
+emergency_flux = 300
+emergency_flux_is = "initial"
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+[[medium]]
+name = "fire"
+kind = "fds"
+file = "fire.smv"
+albedo = 0.2
+g = 0.6
+angstrom = 1
+[[sign]]
+name = "exit"
+file = "exit.svg"
+smallest_detail = 0.016
+width = 0.4
+height = 0.2
+position = [0.02, 1, 2.2]
+facing = [1, 0, 0]
+mains_white = 500
+mains_green = 100
+emergency_white = 500
+emergency_green = 100
+[[people]]
+name = "office"
+file = "people.txt"
+[[people]]
+name = "cinema"
+file = "people.txt"
+luminance_before = 1
+[assessment]
+irritant_smoke = false
+[[scenario]]
+name = "fire"
+operation = "emergency"
+)");
+  const Outcome run = run_luxodus(folder, "walk " + (folder / "room.toml").string() + " --step 5 " +
+                                              "--out " + (folder / "out").string());
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto steps = csv_rows(folder / "out/steps.csv");
+  REQUIRE(steps.size() == 10);
+  for (size_t i = 0; i < 5; ++i) {
+    INFO(steps[i].at("time_s"));
+    CHECK(std::stod(steps[i].at("extinction_per_m")) ==
+          Approx(0.04 * 5 * static_cast<double>(i)).margin(1e-6));
+    const double office = std::stod(steps[i].at("equivalent_background_cd_m2")),
+                 cinema = std::stod(steps[i + 5].at("equivalent_background_cd_m2"));
+    CHECK(steps[i + 5].at("group") == "cinema");
+    CHECK(office > 10 * cinema);
+    CHECK(cinema > 0);
+  }
 }

@@ -33,8 +33,14 @@ constexpr H5Z_filter_t zstandard_filter = 32015;
 constexpr size_t chunk_bytes = size_t{64} << 20;
 /// Rows that are read at a time.
 constexpr hsize_t rows_at_once = 1 << 16;
-/// The table, its copy in columns, and the file.
-constexpr IsolatedLimits job_limits{uint64_t{6} << 30, 300};
+/// What reading a file may take: its bytes twice, the table and its copy; and the time of the
+/// largest table, and of bytes at a rate that any machine reaches. Damaged files of a few kilobytes
+/// make the library run for minutes, so the limits grow with the file.
+IsolatedLimits job_limits(uint64_t bytes) {
+  constexpr uint64_t table_bytes = uint64_t{2} << 30, bytes_per_s = uint64_t{20} << 20;
+  constexpr uint32_t table_s = 10;
+  return {table_bytes + 3 * bytes, table_s + static_cast<uint32_t>(bytes / bytes_per_s)};
+}
 
 /// An identifier of the library, closed at its end.
 class Handle {
@@ -233,6 +239,21 @@ class Hdf5Reader {
     return {};
   }
 
+  /// Rows that a file declares and does not hold would be read as zeros, for minutes.
+  Result<void> check_held(hid_t table, hid_t type, hid_t space, hsize_t count) const {
+    const Handle made(H5Dget_create_plist(table), H5Pclose);
+    hsize_t held = H5Dget_storage_size(table) / std::max<size_t>(H5Tget_size(type), 1);
+    if (hsize_t chunk = 0, chunks = 0; H5Pget_layout(made) == H5D_CHUNKED) {
+      if (H5Pget_chunk(made, 1, &chunk) != 1 || H5Dget_num_chunks(table, space, &chunks) < 0)
+        return bad("the chunks of \"/trajectory\" cannot be counted: the file is damaged");
+      held = chunk > 0 && chunks > limits::trajectory_rows / chunk ? limits::trajectory_rows
+                                                                   : chunk * chunks;
+    }
+    if (count <= held) return {};
+    return bad(fmt::format("\"/trajectory\" declares {} rows and holds {}: the file is incomplete",
+                           count, held));
+  }
+
   Result<void> read_rows(hid_t table, Hdf5Table& out) const {
     const Handle type(H5Dget_type(table), H5Tclose), space(H5Dget_space(table), H5Sclose);
     bool has_z = false;
@@ -244,6 +265,7 @@ class Hdf5Reader {
     if (count > limits::trajectory_rows)
       return bad(fmt::format("\"/trajectory\" has {} rows; at most {} are read", count,
                              limits::trajectory_rows));
+    if (auto ok = check_held(table, type, space, count); !ok) return ok;
     const Handle memory(H5Tcreate(H5T_COMPOUND, sizeof(Hdf5Row)), H5Tclose);
     H5Tinsert(memory, "frame", offsetof(Hdf5Row, frame), H5T_NATIVE_INT64);
     H5Tinsert(memory, "id", offsetof(Hdf5Row, id), H5T_NATIVE_INT64);
@@ -287,7 +309,10 @@ Result<Trajectories> hdf5_trajectories(const std::string& file) {
   const auto unread = [&] {
     return problem_in(file, "HDF5: what was read of it is incomplete", ProblemKind::bug);
   };
-  auto answer = hdf5_job.run([&](PlainWriter& question) { question.put(file); }, job_limits);
+  const auto bytes = size_of_regular_file(file);
+  if (!bytes) return bytes.problem();
+  auto answer =
+      hdf5_job.run([&](PlainWriter& question) { question.put(file); }, job_limits(bytes.value()));
   if (!answer) return problem_in(file, answer.problem());
   uint8_t ok = 0;
   if (!answer->get(ok)) return unread();
