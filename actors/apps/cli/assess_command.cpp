@@ -18,6 +18,7 @@
 #include "actors/apps/cli/report_options.hpp"
 #include "actors/apps/cli/signals.hpp"
 #include "actors/apps/cli/version.hpp"
+#include "actors/apps/cli/visibility_map_options.hpp"
 #include "actors/cast/process/in_process.hpp"
 #include "actors/judge/assess/assessment_files.hpp"
 #include "actors/judge/assess/check_words.hpp"
@@ -52,6 +53,7 @@ struct AssessCommandOptions {
   bool overwrite = false;
   bool no_pictures = false;
   ReportWords report;
+  MapWords map;
 };
 
 std::string ids_of(std::span<const NamedRules> rows) {
@@ -135,10 +137,31 @@ Result<ThresholdRows> thresholds_of(const AssessmentJob& job, const Assessment& 
       {*job.scene, scenario.value(), assessed, job.options, interrupt_flag(), told}, job.find);
 }
 
+/// Errors: options of an assessment that a map has not; as map_into.
+Result<ExitCode> map_scene(const AssessCommandOptions& options, const AssessedStates& states) {
+  if (options.codes_alone || !options.find.empty() || !options.assess.smoke_factors.empty())
+    return problem(
+        "--visibility-map is made instead of the assessment: take --codes-alone, --find and "
+        "--smoke-scale away");
+  AssessOptions asked = options.assess;
+  asked.place_unknown = options.place == "unknown";
+  const auto nodes = nodes_that_trace(options.nodes);
+  asked.executor = nodes.get();
+  const fs::path folder = options.out.empty()
+                              ? fs::path("out") / file_name_of(states.last->name + "-map")
+                              : fs::path(options.out);
+  install_interrupt_handler();
+  return map_into(folder,
+                  {states.last, states.times,
+                   reader_at_times(*states.last, options.scene, FireFrames::nearest)},
+                  asked, options.map);
+}
+
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto states = assessed_states(options.scene, times_asked(options.at));
   const auto& scene = states.last;
   if (!scene) return exit_code_of(states.told);
+  if (options.map.wanted) return map_scene(options, states);
   AssessmentJob job;
   job.scene = scene;
   job.scene_file = options.scene;
@@ -317,15 +340,19 @@ Command assess_command() {
           "what came from IFC by_guid.csv, property_sets.csv, issues.bcf (failed checks). Over "
           "several times routes are followed; all else "
           "is of the last of them.\n"
+          "--visibility-map writes visibility.npz (for pyFDS-Evac), visibility_all.npz, "
+          "visibility.csv, and visibility/ (VTI) instead.\n"
           "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
           "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
           "    --deviation de-asr-a3.4-3\n"
           "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
           "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10\n"
           "  luxodus assess office.toml --find extinction,luminance\n"
-          "  luxodus assess office.toml --at 30s,60s,90s",
+          "  luxodus assess office.toml --at 30s,60s,90s\n"
+          "  luxodus assess office.toml --visibility-map --map-spacing 0.5 --map-heights 1.6,1",
       .run = [o] { return exit_code_of(assess_scene(*o)); }};
   add_report_options(command, o->report);
+  add_map_options(command, o->map);
   return command;
 }
 

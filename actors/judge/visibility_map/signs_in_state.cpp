@@ -30,8 +30,9 @@ constexpr double spacing_share = 0.35, least_spacing_m = 0.8, widest_spacing_m =
 constexpr size_t first_supports = 60, more_supports = 24;
 /// Supports to which lines are drawn from a place, nearest first, at most.
 constexpr size_t tried_supports = 12;
-/// Levels that are this near to their limit are left undecided [logarithm].
-constexpr double near_limit = 0.1;
+/// What a round makes of the errors: that of noise with four times the paths, and that of the
+/// interpolation with supports half as far away. Where this decides nothing, nothing is traced.
+constexpr Doubt next_round{0.5, 0.35};
 /// By which a verdict on stinging smoke allows the share that its line lets pass to be less.
 constexpr double sting_error = 0.02;
 /// A pane of unknown colour may change the light of a sign by as much [share].
@@ -71,9 +72,8 @@ FaceSeen seen_of(const Building& building, const GeometryAccess& access, const S
   return out;
 }
 
-/// Far enough from a limit that more light decides it.
-bool is_apart(const Uncertain& level, double limit) {
-  return std::abs(std::log(std::max(level.value, 1e-12) / limit)) > near_limit;
+bool decides_more(const SignEstimate& a, const SignEstimate& b) {
+  return a.answer != b.answer || a.surely_seen != b.surely_seen;
 }
 
 }  // namespace
@@ -110,6 +110,7 @@ Result<void> SignsInState::compile() {
   for (uint32_t f = 0; f < faces_.size(); ++f) face_of_[faces_[f].sign][faces_[f].back ? 1 : 0] = f;
   chances_ = band_chances(scene);
   factors_ = factors_of(scene, judged_.mixtures());
+  glare_.emplace(*building_);
   by_face_.resize(faces_.size());
   for (Traced& traced : by_face_) {
     traced.glow.resize(factors_.size());
@@ -151,10 +152,8 @@ void SignsInState::look(const GeometryAccess& access, uint32_t eye_number, const
     view.solid = seen.solid;
     view.line =
         sight_line(building_->scene(), access, faces_[face], chances_, building_->local(eye));
-    const double age = judged_.scene.assessment.age_years;
-    view.veils_cd_m2 = std::move(arriving_beside(*building_, access, eye, view.geometry.centre,
-                                                 signs_[slot], {age}, factors_)
-                                     .veils_cd_m2.front());
+    view.veils_cd_m2 = glare_->at(eye, view.geometry.centre, signs_[slot],
+                                  judged_.scene.assessment.age_years, factors_);
     views.push_back(std::move(view));
   }
 }
@@ -210,20 +209,20 @@ ViewLight SignsInState::light_of(const View& view, size_t mixture, const Uncerta
   return out;
 }
 
-Sight SignsInState::judge_in(const View& view, size_t mixture) const {
+Sight SignsInState::judge_in(const View& view, size_t mixture, const Doubt& doubt) const {
   const Traced& traced = by_face_[view.face];
   const double taken = 1 - view.line.passed_scene;
   Uncertain veil;
   if (taken > least_taken) {
     const Interpolated glow = traced.glow[mixture].at(view.near_supports());
-    veil = times(taken, glow.at_worst(rules_.sure_errors));
+    veil = times(taken, glow.at_worst(rules_.sure_errors, doubt));
     veil.value = std::max(0.0, veil.value);
   }
   const Uncertain beyond =
-      traced.beyond[mixture].at(view.near_supports()).at_worst(rules_.sure_errors);
+      traced.beyond[mixture].at(view.near_supports()).at_worst(rules_.sure_errors, doubt);
   const Sign& sign = judged_.scene.signs[signs_[view.slot]];
   const ViewLight light = light_of(view, mixture, veil, beyond);
-  SignLook look = look_of(sign.face, light, view.veils_cd_m2[mixture]);
+  SignLook look = look_with_glare(view, light, mixture);
   Sight sight = judge_sight(sign, view.geometry, look, rules_);
   if (sight.verdict != SightVerdict::legible || !rules_.irritant_smoke) return sight;
   // Whether smoke stings depends on the line alone, and must hold with its error.
@@ -235,10 +234,39 @@ Sight SignsInState::judge_in(const View& view, size_t mixture) const {
   return sight;
 }
 
-Sight SignsInState::judge(const View& view) const {
-  Sight sight = judge_in(view, judged_.aged_mixture(0));
+SignLook SignsInState::look_with_glare(const View& view, const ViewLight& light,
+                                       size_t mixture) const {
+  const SignFace& face = judged_.scene.signs[signs_[view.slot]].face;
+  const double most = std::min(view.veils_cd_m2[mixture], any_luminance);
+  if (view.exact_veils) return look_of(face, light, most);
+  SignLook look = look_of(face, light, most / 2);
+  for (Uncertain* background : {&look.ground, &look.surround})
+    background->error += most / 2 / rules_.sure_errors;
+  return look;
+}
+
+SignEstimate SignsInState::answer(const GeometryAccess& access, const glm::dvec3& eye,
+                                  View& view) const {
+  SignEstimate estimate = estimate_of(judge(view));
+  if (view.exact_veils || estimate.answer != SignAnswer::undecided) return estimate;
+  View unglared = view;
+  unglared.exact_veils = true;
+  std::fill(unglared.veils_cd_m2.begin(), unglared.veils_cd_m2.end(), 0.0);
+  const SignEstimate best = estimate_of(judge(unglared));
+  if (best.answer == SignAnswer::undecided && best.surely_seen == estimate.surely_seen)
+    return estimate;
+  const double age = judged_.scene.assessment.age_years;
+  view.veils_cd_m2 = arriving_beside(*building_, access, eye, view.geometry.centre,
+                                     signs_[view.slot], {age}, factors_)
+                         .veils_cd_m2.front();
+  view.exact_veils = true;
+  return estimate_of(judge(view));
+}
+
+Sight SignsInState::judge(const View& view, const Doubt& doubt) const {
+  Sight sight = judge_in(view, judged_.aged_mixture(0), doubt);
   if (judged_.ageing.any()) {
-    Sight as_new = judge_in(view, judged_.new_mixture(0));
+    Sight as_new = judge_in(view, judged_.new_mixture(0), doubt);
     if (is_worse(as_new, sight)) std::swap(sight, as_new);
   }
   // Light of new luminaires only veils more.
@@ -247,17 +275,15 @@ Sight SignsInState::judge(const View& view) const {
   return sight;
 }
 
-bool SignsInState::may_gain(const View& view, const SignEstimate& estimate) const {
-  if (estimate.answer != SignAnswer::undecided) return false;
-  const Sign& sign = judged_.scene.signs[signs_[view.slot]];
-  const ViewLight clear = light_of(view, 0, {}, {});
-  const Sight best =
-      judge_sight(sign, view.geometry, look_of(sign.face, clear, view.veils_cd_m2.front()), rules_);
-  if (best.reading_level.value < level_read && estimate.surely_seen) return false;
-  if (best.reading_level.value < level_read && best.seeing_level.value < rules_.seen_from())
-    return false;
-  return is_apart(estimate.reading_level, level_read) ||
-         is_apart(estimate.seeing_level, rules_.seen_from());
+SignsInState::Needs SignsInState::needs_of(const View& view) const {
+  const SignEstimate now = estimate_of(judge(view));
+  const auto decides = [&](const Doubt& doubt) {
+    return decides_more(estimate_of(judge(view, doubt)), now);
+  };
+  if (!decides(next_round)) return {};
+  const bool by_noise = decides({next_round.noise, 1}), by_bound = decides({1, next_round.bound});
+  if (by_noise) return {true, false};
+  return {!by_bound, true};
 }
 
 void SignsInState::judge_all(std::span<const glm::dvec3> eyes) {
@@ -266,8 +292,9 @@ void SignsInState::judge_all(std::span<const glm::dvec3> eyes) {
     if (!view.open) return;
     find_near(access, eyes[view.eye], view);
     SignEstimate& estimate = estimates_[view.eye * signs_.size() + view.slot];
-    estimate = estimate_of(judge(view));
+    estimate = answer(access, eyes[view.eye], view);
     view.open = estimate.answer == SignAnswer::undecided;
+    view.needs = view.open ? needs_of(view) : Needs{};
   });
 }
 
@@ -279,7 +306,7 @@ std::vector<SignEstimate> SignsInState::of(std::span<const glm::dvec3> eyes) con
     look(access, static_cast<uint32_t>(i), eyes[i], here, views);
     for (View& view : views) {
       find_near(access, eyes[i], view);
-      here[view.slot] = estimate_of(judge(view));
+      here[view.slot] = answer(access, eyes[i], view);
     }
   });
   return out;
@@ -305,9 +332,7 @@ std::vector<size_t> SignsInState::add_supports(std::span<const glm::dvec3> eyes,
   std::vector<std::vector<Wanted>> wanted(faces_.size());
   for (size_t v = 0; v < views_.size(); ++v) {
     const View& view = views_[v];
-    if (round > 0 &&
-        (!view.open || !may_gain(view, estimates_[view.eye * signs_.size() + view.slot])))
-      continue;
+    if (round > 0 && !view.needs.supports) continue;
     double distance = std::numeric_limits<double>::infinity();
     for (const NearSupport& near : view.near_supports())
       distance = std::min(distance, near.distance_m / spacing_at(view.geometry.distance_m));
@@ -332,16 +357,13 @@ std::vector<size_t> SignsInState::add_supports(std::span<const glm::dvec3> eyes,
   return added;
 }
 
-/// Those whose noise, more than the interpolation, leaves views undecided.
+/// Those whose noise leaves views undecided.
 std::vector<size_t> SignsInState::noisy_supports() const {
   std::vector<size_t> out;
   for (const View& view : views_) {
-    if (!view.open || !may_gain(view, estimates_[view.eye * signs_.size() + view.slot])) continue;
-    const Traced& traced = by_face_[view.face];
-    const Interpolated glow = traced.glow.front().at(view.near_supports());
-    if (rules_.sure_errors * glow.noise < glow.bound) continue;
+    if (!view.needs.paths) continue;
     for (const NearSupport& near : view.near_supports())
-      out.push_back(traced.supports[near.support].view);
+      out.push_back(by_face_[view.face].supports[near.support].view);
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "actors/judge/assess/arriving_beside.hpp"
+#include "actors/judge/visibility_map/glare_bound.hpp"
 #include "actors/judge/visibility_map/sight_line.hpp"
 #include "actors/judge/visibility_map/sign_answer.hpp"
 #include "actors/judge/visibility_map/support_field.hpp"
@@ -44,6 +45,10 @@ class SignsInState {
   size_t supports() const;
 
  private:
+  /// What would decide a view: more paths to its supports, or nearer supports.
+  struct Needs {
+    bool paths = false, supports = false;
+  };
   /// A view whose answer depends on light.
   struct View {
     uint32_t eye = 0;
@@ -52,10 +57,12 @@ class SignsInState {
     SignView geometry;
     double solid = 1;  // share of light that panes before the face let pass
     SightLine line;
-    std::vector<double> veils_cd_m2;  // of glare, by mixture
+    std::vector<double> veils_cd_m2;  // of glare, by mixture; at most, unless they are exact
+    bool exact_veils = false;
     std::array<NearSupport, limits::near_supports> near{};
     size_t nears = 0;
-    bool open = true;  // more paths may decide it
+    bool open = true;  // undecided
+    Needs needs;
 
     std::span<const NearSupport> near_supports() const { return {near.data(), nears}; }
   };
@@ -88,15 +95,17 @@ class SignsInState {
   void look(const GeometryAccess& access, uint32_t eye_number, const glm::dvec3& eye,
             std::span<SignEstimate> estimates, std::vector<View>& views) const;
   void find_near(const GeometryAccess& access, const glm::dvec3& eye, View& view) const;
+  /// The answer; computes the glare of the view if its bound alone does not decide.
+  SignEstimate answer(const GeometryAccess& access, const glm::dvec3& eye, View& view) const;
   /// Largest relative error of what its line lets pass.
   static double line_error(const View& view);
-  Sight judge(const View& view) const;
-  Sight judge_in(const View& view, size_t mixture) const;
+  Sight judge(const View& view, const Doubt& doubt = {}) const;
+  Sight judge_in(const View& view, size_t mixture, const Doubt& doubt) const;
+  /// The look of a view whose glare is known, or lies anywhere below its bound.
+  SignLook look_with_glare(const View& view, const ViewLight& light, size_t mixture) const;
   ViewLight light_of(const View& view, size_t mixture, const Uncertain& veil,
                      const Uncertain& beyond) const;
-  /// Whether more light, or less veil, may decide that the sign is read or that its pattern is
-  /// seen.
-  bool may_gain(const View& view, const SignEstimate& estimate) const;
+  Needs needs_of(const View& view) const;
 
   /// Both return numbers in traced_.
   std::vector<size_t> add_supports(std::span<const glm::dvec3> eyes, int round);
@@ -115,6 +124,7 @@ class SignsInState {
   std::vector<uint32_t> signs_;
   AssessOptions options_;
   std::unique_ptr<Building> building_;
+  std::optional<GlareBound> glare_;
   std::vector<FaceOfSign> faces_;
   std::vector<std::array<uint32_t, 2>> face_of_;  // by sign of the scene, front and back
   std::vector<double> chances_;

@@ -21,6 +21,11 @@ struct NearSupport {
 /// of a lamp.
 inline constexpr double any_luminance = 1e6;
 
+/// Factors on the errors of interpolated values, to ask what less of them would decide.
+struct Doubt {
+  double noise = 1, bound = 1;
+};
+
 /// An interpolated value: with the standard error of its noise, and with a bound of the error of
 /// the interpolation.
 struct Interpolated {
@@ -29,7 +34,9 @@ struct Interpolated {
   double bound = any_luminance;
 
   /// With an error of which `sure_errors` hold the bound and as many of the noise.
-  Uncertain at_worst(double sure_errors) const { return {value, noise + bound / sure_errors}; }
+  Uncertain at_worst(double sure_errors, const Doubt& doubt) const {
+    return {value, doubt.noise * noise + doubt.bound * bound / sure_errors};
+  }
 };
 
 namespace limits {
