@@ -342,3 +342,15 @@ operation = "emergency"
     CHECK(cinema > 0);
   }
 }
+
+TEST_CASE("a sign that is not assessed is undecided, and a warning says so", "[program][walk]") {
+  const SmokyWay scene("", "file = \"exit.svg\"\nsmallest_detail = 0.016\n");
+  const std::string text = slurp(scene.place.scene);
+  std::ofstream(scene.place.scene) << luxodus::test::replaced(
+      text, "name = \"exit\"\n", "name = \"exit\"\nplain = \"green\"\nsmallest_detail = 0.02\n");
+  const Outcome run = scene.walk_file(two_walkers);
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK_THAT(run.err, Contains("whether people read the sign \"exit\" is undecided") &&
+                          !Contains("\"behind the screen\" is undecided"));
+}

@@ -94,6 +94,23 @@ Result<void> write_figures(const fs::path& folder, const std::string& scene,
   return {};
 }
 
+/// Warns of signs about which nothing is known wherever people could look at them.
+void warn_of_undecided(const SceneDescription& scene, const WalkOfScene& walk, double step_s) {
+  const auto signs = sign_summaries(scene.signs.size(), walk.walks, step_s);
+  for (size_t i = 0; i < signs.size(); ++i) {
+    const auto seconds = [&](SignAnswer answer) {
+      return signs[i].by_answer_s[static_cast<size_t>(answer)];
+    };
+    const double undecided_s = seconds(SignAnswer::undecided);
+    if (undecided_s == 0 || undecided_s + seconds(SignAnswer::hidden) < signs[i].in_view_s)
+      continue;
+    warn(problem_in(scene.signs[i].place,
+                    fmt::format("whether people read the sign \"{}\" is undecided wherever they "
+                                "have it in view: luxodus assess says why, from an [[observer]]",
+                                scene.signs[i].name)));
+  }
+}
+
 void print_walk(const WalkRequest& request, const WalkOfScene& walk) {
   double all_s = 0, read_s = 0, undecided_s = 0, longest_s = 0;
   size_t never = 0;
@@ -164,6 +181,7 @@ Result<ExitCode> walk(const WalkCommandOptions& o) {
   if (auto ok = write_figures(out->path(), o.scene, request.people, figures); !ok)
     return ok.problem();
   print_walk(request, walked.value());
+  warn_of_undecided(*scene, walked.value(), request.walk.step_s);
   std::printf("written to %s\n", out->named().string().c_str());
   return ExitCode::success;
 }

@@ -134,7 +134,7 @@ bool people_hide(const Sign& sign, const SignView& view, const glm::dvec3& eye,
                  std::span<const PlacedPerson* const> others, double time_s) {
   std::vector<std::pair<glm::dvec3, double>> bodies;  // feet and heights near the line
   for (const PlacedPerson* one : others) {
-    const glm::dvec3 foot = person_at(*one, time_s).foot;
+    const glm::dvec3 foot = foot_at(*one, time_s);
     if (glm::distance(glm::dvec2(foot), glm::dvec2(eye)) < view.distance_m + shoulder_m)
       bodies.emplace_back(foot, one->eye_height_m + crown_m);
   }

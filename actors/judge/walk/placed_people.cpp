@@ -35,16 +35,6 @@ Result<glm::dvec3> on_floor(const PeopleSettings& settings, const Trajectories& 
                                 person.id, settings.name, place.x, place.y, person.times_s[i]));
 }
 
-glm::dvec3 foot_at(const PlacedPerson& person, double time_s) {
-  const auto& t = person.times_s;
-  const auto next = std::upper_bound(t.begin(), t.end(), time_s);
-  if (next == t.begin()) return person.feet.front();
-  if (next == t.end()) return person.feet.back();
-  const auto i = static_cast<size_t>(next - t.begin());
-  const double share = (time_s - t[i - 1]) / (t[i] - t[i - 1]);
-  return glm::mix(person.feet[i - 1], person.feet[i], share);
-}
-
 /// Direction of the way around a time; 0 if the person stands.
 glm::dvec2 motion_at(const PlacedPerson& person, double time_s) {
   const glm::dvec2 way(foot_at(person, time_s + stride_s) - foot_at(person, time_s - stride_s));
@@ -61,6 +51,16 @@ glm::dvec2 stated_facing(const PlacedPerson& person, double time_s) {
 }
 
 }  // namespace
+
+glm::dvec3 foot_at(const PlacedPerson& person, double time_s) {
+  const auto& t = person.times_s;
+  const auto next = std::upper_bound(t.begin(), t.end(), time_s);
+  if (next == t.begin()) return person.feet.front();
+  if (next == t.end()) return person.feet.back();
+  const auto i = static_cast<size_t>(next - t.begin());
+  const double share = (time_s - t[i - 1]) / (t[i] - t[i - 1]);
+  return glm::mix(person.feet[i - 1], person.feet[i], share);
+}
 
 Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
                                                const Trajectories& trajectories,

@@ -30,6 +30,9 @@ Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
                                                const Trajectories& trajectories,
                                                const AssessmentSettings& assessment);
 
+/// Where a person stands, linear between the stated times.
+glm::dvec3 foot_at(const PlacedPerson& person, double time_s);
+
 /// Between the stated times places are interpolated linearly. People look where their file says, or
 /// else where they walk: along their way within half a second before and after, or, while they
 /// stand, where they walked before, or will walk first. Requires: a time within the person's times.

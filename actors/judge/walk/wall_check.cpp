@@ -98,16 +98,16 @@ Result<WallCheck> check_walls(const SceneDescription& scene, const Scenario& sce
   std::vector<char> wrong(steps.size());
   building.each(steps.size(), [&](const GeometryAccess& access, size_t i) {
     const PlacedPerson& one = people[steps[i].person];
-    wrong[i] = goes_wrong(building, access, person_at(one, steps[i].from_s).foot,
-                          person_at(one, steps[i].to_s).foot)
-                   ? 1
-                   : 0;
+    wrong[i] =
+        goes_wrong(building, access, foot_at(one, steps[i].from_s), foot_at(one, steps[i].to_s))
+            ? 1
+            : 0;
   });
   WallCheck out{steps.size(), static_cast<size_t>(std::count(wrong.begin(), wrong.end(), 1))};
   if (out.share() <= limits::steps_in_walls) return out;
   const auto first = static_cast<size_t>(std::find(wrong.begin(), wrong.end(), 1) - wrong.begin());
   const PlacedPerson& one = people[steps[first].person];
-  const glm::dvec3 at = person_at(one, steps[first].from_s).foot;
+  const glm::dvec3 at = foot_at(one, steps[first].from_s);
   return problem_in(
       scene.file,
       fmt::format("{:.3g} % of {} steps of the people cross walls or begin in solids, first person "
