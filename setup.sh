@@ -29,6 +29,8 @@ packages=(
   libdxflib-dev
   # containers of luminaires (GLDF)
   libzip-dev libpugixml-dev
+  # trajectories of people (SQLite, HDF5)
+  libsqlite3-dev libhdf5-dev
   # smoke from OpenVDB files
   libopenvdb-dev
   # mixed-integer programs: where emergency luminaires go; moving them without gradients

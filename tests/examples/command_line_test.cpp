@@ -77,12 +77,12 @@ TEST_CASE("the help lists every command once, under the seven headings", "[progr
   CHECK(headings == std::vector<std::string>{"Options", "Scenes", "Results", "Assess", "Live",
                                              "Cluster", "Study", "Tools"});
   const std::vector<std::string> commands = commands_in(help);
-  CHECK(commands == std::vector<std::string>{
-                        "check",    "pack",      "import",  "run",    "render",   "export",
-                        "converge", "assess",    "compare", "report", "design",   "spacing",
-                        "view",     "cluster",   "node",    "status", "topology", "keygen",
-                        "profile",  "deploy",    "sim",     "study",  "validate", "keys",
-                        "info",     "completion"});
+  CHECK(commands ==
+        std::vector<std::string>{"check",    "pack",    "import",    "run",    "render", "export",
+                                 "converge", "assess",  "compare",   "report", "design", "spacing",
+                                 "walk",     "view",    "cluster",   "node",   "status", "topology",
+                                 "keygen",   "profile", "deploy",    "sim",    "study",  "validate",
+                                 "keys",     "info",    "completion"});
 }
 
 TEST_CASE("every option is described by a noun phrase within 92 columns", "[program][help]") {

@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# mutations.sh COUNT [fields|fds_input|ifc|dxf|photometry|geometry...]: mutates COUNT files of each
-# imported format (geometry: meshes), and reads them under the address and undefined-behaviour
-# sanitizers. Prints time and memory of each. LUXODUS_SEED selects other files. All these readers
-# are our own: files of others' libraries are not mutated.
+# mutations.sh COUNT [fields|fds_input|ifc|dxf|photometry|trajectories|geometry...]: mutates COUNT
+# files of each imported format (geometry: meshes), and reads them under the address and
+# undefined-behaviour sanitizers. Prints time and memory of each. LUXODUS_SEED selects other files.
+# Most of these readers are our own; SQLite and HDF5 (trajectories) are libraries, which are not
+# sanitized themselves.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-count=${1:?usage: mutations.sh COUNT [fields|fds_input|ifc|dxf|photometry|geometry...]}
+count=${1:?usage: mutations.sh COUNT [fields|fds_input|ifc|dxf|photometry|trajectories|geometry...]}
 shift
 rooms=("$@")
-[ "${#rooms[@]}" -gt 0 ] || rooms=(fields fds_input ifc dxf photometry geometry)
+[ "${#rooms[@]}" -gt 0 ] || rooms=(fields fds_input ifc dxf photometry trajectories geometry)
 tests=("${rooms[@]/#/test_scenes_formats_}")
 tests=("${tests[@]/formats_geometry/light_geometry}")
 

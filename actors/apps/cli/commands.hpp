@@ -25,6 +25,7 @@ Command compare_command();
 Command report_command();
 Command design_command();
 Command spacing_command();
+Command walk_command();
 // live view
 Command view_command();
 // clusters

@@ -15,6 +15,7 @@
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/text_scan.hpp"
 #include "scenes/formats/scene_file/read_luminaires.hpp"
+#include "scenes/formats/scene_file/scene_people.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
 #include "scenes/light/geometry/import.hpp"
 #include "scenes/light/world/design.hpp"
@@ -277,6 +278,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"task_area", read_task_area},
       {"emphasis", read_emphasis},
       {"room", read_room},
+      {"people", read_people},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   check_rooms(reading);
@@ -303,6 +305,14 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   if (!reading.findings.any_problem()) out.scene = std::move(reading.scene);
   out.problems = reading.findings.take_problems();
   return out;
+}
+
+ReadPeople read_people_of_scene(const std::filesystem::path& path) {
+  SceneReading reading;
+  Loader loader(reading);
+  loader.load(path, {path.string(), 1});
+  read_all(loader.documents, "people", read_people, reading);
+  return {std::move(reading.people), reading.findings.take_problems()};
 }
 
 }  // namespace luxodus

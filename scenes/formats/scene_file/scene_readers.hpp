@@ -41,6 +41,7 @@ void check_rooms(SceneReading& reading);
 void read_design(const toml::Table& table, SceneReading& reading, DesignSettings& design);
 /// Gives the scene its design, with default types where none are stated.
 void complete_design(SceneReading& reading, DesignSettings design);
+void read_people(const toml::Table& table, SceneReading& reading);
 void read_time(const toml::Table& table, SceneReading& reading);
 void read_scenario(const toml::Table& table, SceneReading& reading);
 void read_change(const toml::Table& table, SceneReading& reading);

@@ -19,6 +19,7 @@
 #include "scenes/light/world/design.hpp"
 #include "scenes/light/world/files_as_read.hpp"
 #include "scenes/light/world/fire_frames.hpp"
+#include "scenes/light/world/people.hpp"
 
 namespace luxodus {
 
@@ -75,6 +76,9 @@ class SceneReading {
 
   /// Flights of stairs of objects, before a design is read.
   std::vector<StairFlight> stair_flights;
+
+  /// Read by scene_people.hpp alone: they are no part of the scene.
+  std::vector<PeopleSettings> people;
 
   toml::Findings findings;
 

@@ -24,7 +24,7 @@ const toml::Schema& scene_schema() {
   static const toml::Schema schema = [] {
     toml::Schema all;
     for (auto part : {geometry_schema(), light_schema(), measurement_schema(), scenario_schema(),
-                      assessment_schema(), design_schema(), project_schema()}) {
+                      assessment_schema(), design_schema(), people_schema(), project_schema()}) {
       for (auto& table : part) all.tables.push_back(std::move(table));
     }
     all.text_rules.push_back(

@@ -43,5 +43,6 @@ std::vector<TableSpec> scenario_schema();
 std::vector<TableSpec> assessment_schema();
 std::vector<TableSpec> project_schema();
 std::vector<TableSpec> design_schema();
+std::vector<TableSpec> people_schema();
 
 }  // namespace luxodus

@@ -43,6 +43,7 @@ TableSpec scene_keys() {
           {"assessment", "table", "", "", "", "how people and smoke are taken to be"},
           {"project", "table", "", "", "", "what reports say of the project"},
           {"backdrop", "tables", "", "", "", "drawings that lie under plans"},
+          {"people", "tables", "", "", "", "people who walk, for `luxodus walk`"},
           {"route", "tables", "", "", "", "escape routes"},
           {"open_area", "tables", "", "", "", "floors without a defined route"},
           {"task_area", "tables", "", "", "", "places of high-risk work"},

@@ -1,0 +1,205 @@
+// Maps and their animation share one sheet: walls of a level, and what lies or moves over them. The
+// animation is declared in the SVG itself (SMIL), so that a browser plays it without a script.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "actors/judge/report/svg_sheet.hpp"
+#include "actors/judge/walk/walk_files.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Colours of cells by person-seconds without a sign read; they differ in lightness, too.
+struct CellClass {
+  double below_s;  // belongs to smaller values
+  const char* colour;
+  const char* text;
+};
+constexpr std::array<CellClass, 5> cell_classes{{{1e-9, "#cfe3d4", "always read a sign"},
+                                                 {2, "#f6d98b", "up to 2 person-seconds without"},
+                                                 {10, "#e59a4c", "2 to 10"},
+                                                 {50, "#b04a3a", "10 to 50"},
+                                                 {1e300, "#4a1526", "50 and more"}}};
+
+const CellClass& class_of(double unread_s) {
+  for (const CellClass& one : cell_classes)
+    if (unread_s < one.below_s) return one;
+  return cell_classes.back();
+}
+
+/// Colours of people by what they read at a step.
+constexpr const char* reads_colour = "#2f8f5b";
+constexpr const char* undecided_colour = "#e0b23a";
+constexpr const char* unread_colour = "#4a2a33";
+
+const char* colour_of(const WalkStep& step) {
+  if (step.reads()) return reads_colour;
+  return step.count(SignAnswer::undecided) > 0 ? undecided_colour : unread_colour;
+}
+
+/// Radius of a person in the animation [m]; seconds of the clock in a second of it.
+constexpr double person_m = 0.25, played_times = 4;
+/// Height of the line that shows the time [mm].
+constexpr double clock_mm = 1;
+
+std::string lines_of(const Sheet& sheet, const std::vector<DrawnLine>& lines, const char* colour,
+                     double width_mm) {
+  std::string path;
+  for (const auto& [a, b] : lines)
+    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(a.x), sheet.y(a.y), sheet.x(b.x),
+                        sheet.y(b.y));
+  return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" fill=\"none\"/>\n", path,
+                     colour, width_mm);
+}
+
+std::string symbol(const char* colour) {
+  return fmt::format("<rect x=\"0\" y=\"-1.5\" width=\"3\" height=\"3\" fill=\"{}\"/>", colour);
+}
+
+/// A box that holds the walls of a level and more places.
+class DrawnBox {
+ public:
+  explicit DrawnBox(const PlanLevel& level) {
+    for (const auto* lines : {&level.walls, &level.furniture})
+      for (const auto& [a, b] : *lines) {
+        take(a);
+        take(b);
+      }
+  }
+  void take(const glm::dvec2& place) {
+    low_ = glm::min(low_, place);
+    high_ = glm::max(high_, place);
+  }
+  Sheet sheet(const Legend& legend) const {
+    if (low_.x > high_.x) return {glm::dvec2(0), glm::dvec2(1), PlanSize(), legend};
+    return {low_, high_, PlanSize(), legend};
+  }
+
+ private:
+  glm::dvec2 low_{1e300}, high_{-1e300};
+};
+
+/// `below`: under the walls; `above`: over them.
+std::string drawing_of(const Sheet& sheet, const PlanLevel& level, const Legend& legend,
+                       const std::string& below, const std::string& above) {
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.2f} {1:.2f}\" "
+             "width=\"{0:.2f}mm\" height=\"{1:.2f}mm\" font-family=\"sans-serif\">\n"
+             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+             sheet.width(), sheet.height() + sheet.foot()) +
+         below + lines_of(sheet, level.furniture, "#9aa0a6", 0.12) +
+         lines_of(sheet, level.walls, "#222", 0.25) + above +
+         legend.svg(sheet.width(), sheet.height()) + "</svg>\n";
+}
+
+/// The times of an animation as shares of it.
+struct PlayedTime {
+  double from_s = 0, to_s = 1;
+  double share(double time_s) const {
+    return std::clamp((time_s - from_s) / std::max(to_s - from_s, 1e-9), 0.0, 1.0);
+  }
+  /// An attribute that changes, with its shares of the time and values.
+  std::string animate(const char* attribute, const std::string& shares, const std::string& values,
+                      bool in_jumps) const {
+    return fmt::format(
+        "<animate attributeName=\"{}\" dur=\"{:.2f}s\" repeatCount=\"indefinite\" "
+        "calcMode=\"{}\" keyTimes=\"{}\" values=\"{}\"/>",
+        attribute, std::max(to_s - from_s, 1e-3) / played_times, in_jumps ? "discrete" : "linear",
+        shares, values);
+  }
+};
+
+/// Key times and values of one person on a level.
+struct PersonTrack {
+  std::string shares, x, y, colours, shown_shares, shown;
+};
+
+PersonTrack track_of(const WalkedPerson& walked, const Sheet& sheet, const PlayedTime& time,
+                     double step_s) {
+  PersonTrack out;
+  const auto add = [](std::string& list, const std::string& value) {
+    list += (list.empty() ? "" : ";") + value;
+  };
+  const auto at = [&](double share, const WalkStep& step) {
+    add(out.shares, fmt::format("{:.5f}", share));
+    add(out.x, fmt::format("{:.2f}", sheet.x(step.eye.x)));
+    add(out.y, fmt::format("{:.2f}", sheet.y(step.eye.y)));
+    add(out.colours, colour_of(step));
+  };
+  const double first = time.share(walked.steps.front().time_s),
+               last = time.share(walked.steps.back().time_s);
+  if (first > 0) at(0, walked.steps.front());
+  for (const WalkStep& step : walked.steps) at(time.share(step.time_s), step);
+  if (last < 1) at(1, walked.steps.back());
+  if (first > 0) {
+    add(out.shown_shares, "0");
+    add(out.shown, "hidden");
+  }
+  add(out.shown_shares, fmt::format("{:.5f}", first));
+  add(out.shown, "visible");
+  if (const double gone = time.share(walked.steps.back().time_s + step_s); gone < 1) {
+    add(out.shown_shares, fmt::format("{:.5f}", gone));
+    add(out.shown, "hidden");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string walk_map(const PlanLevel& level, const FloorCount& counts) {
+  Legend legend;
+  for (const CellClass& one : cell_classes) legend.add(symbol(one.colour), 3, one.text);
+  DrawnBox box(level);
+  for (const auto& [cell, count] : counts) {
+    box.take(counted_cell_m * glm::dvec2(cell.first, cell.second));
+    box.take(counted_cell_m * glm::dvec2(cell.first + 1, cell.second + 1));
+  }
+  const Sheet sheet = box.sheet(legend);
+  std::string cells;
+  for (const auto& [cell, count] : counts) {
+    const glm::dvec2 low = counted_cell_m * glm::dvec2(cell.first, cell.second);
+    cells += fmt::format(
+        "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\" "
+        "shape-rendering=\"crispEdges\"/>\n",
+        sheet.x(low.x), sheet.y(low.y + counted_cell_m), sheet.mm(counted_cell_m),
+        sheet.mm(counted_cell_m), class_of(count.unread_s).colour);
+  }
+  return drawing_of(sheet, level, legend, cells, "");
+}
+
+std::string walk_animation(const PlanLevel& level, const std::vector<const WalkedPerson*>& walks,
+                           double step_s) {
+  Legend legend;
+  legend.add(symbol(reads_colour), 3, "reads a sign");
+  legend.add(symbol(undecided_colour), 3, "undecided");
+  legend.add(symbol(unread_colour), 3, "reads none");
+  DrawnBox box(level);
+  PlayedTime time{1e300, -1e300};
+  for (const WalkedPerson* walked : walks) {
+    for (const WalkStep& step : walked->steps) box.take(glm::dvec2(step.eye));
+    time.from_s = std::min(time.from_s, walked->steps.front().time_s);
+    time.to_s = std::max(time.to_s, walked->steps.back().time_s);
+  }
+  const Sheet sheet = box.sheet(legend);
+  std::string people;
+  for (const WalkedPerson* walked : walks) {
+    const PersonTrack track = track_of(*walked, sheet, time, step_s);
+    people += fmt::format("<circle r=\"{:.2f}\">", sheet.mm(person_m)) +
+              time.animate("cx", track.shares, track.x, false) +
+              time.animate("cy", track.shares, track.y, false) +
+              time.animate("fill", track.shares, track.colours, true) +
+              time.animate("visibility", track.shown_shares, track.shown, true) + "</circle>\n";
+  }
+  people +=
+      fmt::format("<rect x=\"0\" y=\"{:.2f}\" height=\"{}\" fill=\"#888\">{}</rect>\n",
+                  sheet.height() - clock_mm, clock_mm,
+                  time.animate("width", "0;1", fmt::format("0;{:.2f}", sheet.width()), false));
+  people += text_at(border_mm, sheet.height() - 2 * clock_mm,
+                    fmt::format("{:g} to {:g} s", time.from_s, time.to_s));
+  return drawing_of(sheet, level, legend, "", people);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,95 @@
+// A hall of 20 m x 6 m with a route from west to east, a sign over its end and one that leads
+// nowhere, and people who walk along it. Any thread.
+#pragma once
+
+#include <string>
+
+#include "actors/judge/walk/placed_people.hpp"
+#include "tests/kit/described.hpp"
+
+namespace luxodus::test {
+
+/// Walls, floor and ceiling of a box, a partition with a door at x = 10, signs and a route.
+inline const std::string hall_text = R"(
+[[object]]
+name = "hall"
+shape = "room"
+low = [0, 0, 0]
+high = [20, 6, 3]
+material = "grey50"
+
+[[object]]
+name = "south partition"
+shape = "box"
+low = [9.9, 0, 0]
+high = [10.1, 2.5, 3]
+material = "grey50"
+
+[[object]]
+name = "north partition"
+shape = "box"
+low = [9.9, 3.5, 0]
+high = [10.1, 6, 3]
+material = "grey50"
+
+[[object]]
+name = "door"
+shape = "quad"
+corner = [10, 2.5, 0]
+edge_u = [0, 1, 0]
+edge_v = [0, 0, 2.1]
+material = "grey50"
+door = { hinge = [10, 2.5, 0], open_angle_deg = 90 }
+
+[[sign]]
+name = "exit"
+plain = "green"
+smallest_detail = 0.02
+width = 0.4
+height = 0.2
+position = [19.9, 3, 2.3]
+facing = [-1, 0, 0]
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+[[sign.leads_to]]
+route = "out"
+arrow = "ahead"
+
+[[sign]]
+name = "elsewhere"
+plain = "green"
+smallest_detail = 0.02
+width = 0.4
+height = 0.2
+position = [19.9, 1, 2.3]
+facing = [-1, 0, 0]
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+
+[[route]]
+name = "out"
+path = [[1, 3, 0], [19, 3, 0]]
+width = 1.6
+
+[[scenario]]
+name = "mains"
+operation = "mains"
+)";
+
+/// Somebody who is at `from` at 0 s and walks at a constant speed to `to`.
+inline PlacedPerson walker_from(const glm::dvec3& from, const glm::dvec3& to, double seconds) {
+  PlacedPerson out;
+  out.group = "people";
+  out.id = 1;
+  out.eye_height_m = 1.6;
+  out.luminance_before_cd_m2 = 100;
+  out.times_s = {0, seconds};
+  out.feet = {from, to};
+  return out;
+}
+
+}  // namespace luxodus::test
