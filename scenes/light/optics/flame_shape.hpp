@@ -3,7 +3,7 @@
 // factor, whose mean over time is 1 on every line. So mean emission and mean transmittance are
 // those of the scene; a field of densities with the right mean would be too transparent (Jensen).
 // For pictures alone: light, verdicts and signs stay with the mean. Design:
-// docs/decisions/0095-flames-at-a-moment.md. Immutable once made; any thread.
+// docs/decisions/0096-flames-at-a-moment.md. Immutable once made; any thread.
 #pragma once
 
 #include <cstdint>
