@@ -1,5 +1,7 @@
 // Films and progressive pictures, on a command line.
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
 
 #include "tests/examples/program_kit.hpp"
 #include "tests/kit/room_texts.hpp"
@@ -254,4 +256,36 @@ TEST_CASE("pictures end at a time or an error, and state their error", "[program
   CHECK(good.code == 0);
   CHECK_THAT(good.err, Contains(" paths a pixel, error "));
   CHECK(fs::exists(place.out / "views/small.exr"));
+}
+
+TEST_CASE("pictures of several runs share one exposure", "[program][film]") {
+  const WalkedRoom place;
+  const fs::path dimmed = place.folder / "dimmed", other = place.folder / "other.toml";
+  std::string text = walked_room;
+  text.replace(text.find("3000"), 4, "30");
+  std::ofstream(other) << text;
+  REQUIRE(
+      place
+          .luxodus("run " + other.string() + " --particles 20k --no-views --out " + dimmed.string())
+          .code == 0);
+  const Outcome made = place.luxodus("render " + place.out.string() + " " + dimmed.string() +
+                                     " --paths 4 --exposure shared");
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  CHECK_THAT(made.err, Contains("exposure of 4 pictures together: "));
+  const auto exposure_of = [](const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string png{std::istreambuf_iterator<char>(in), {}};
+    const std::string key("Exposure\0", 9);
+    const size_t begin = png.find(key) + key.size();
+    return png.substr(begin, png.find_first_not_of("0123456789.,e+-", begin) - begin);
+  };
+  const std::string first = exposure_of(place.out / "views/small.png");
+  CHECK_THAT(made.err, Contains("together: " + first.substr(0, first.rfind(','))));
+  CHECK(exposure_of(place.out / "views/other.png") == first);
+  for (const char* view : {"views/small.png", "views/other.png"})
+    CHECK(exposure_of(dimmed / view) == first);
+  const Outcome wrong = place.render("--exposure bright");
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("--exposure takes each, shared, or GREY,WHITE,SIGN"));
 }

@@ -11,6 +11,7 @@
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/pictures/view_files.hpp"
 #include "runtime/core/log.hpp"
+#include "scenes/light/transport/flame_moment.hpp"
 
 namespace luxodus {
 
@@ -58,17 +59,25 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
        {.form = Form::share, .otherwise = "none"}},
       {"--exposure",
        &choices.exposure,
-       "Exposure of NAME.png: luminances of middle grey, of white, and of the brightest sign, 0 "
-       "for "
-       "none [cd/m2], e.g. 0.84,12,75. Pictures of equal exposure can be compared: the text "
-       "\"Exposure\" of a PNG file says its own",
-       {.otherwise = "each picture's own"}},
+       "Exposure of NAME.png: its own (each); one for all pictures of the call, which can then be "
+       "compared (shared); or luminances of middle grey, of white, and of the brightest sign, 0 "
+       "for none [cd/m2], e.g. 0.84,12,75, as the text \"Exposure\" of a PNG file says them",
+       {.otherwise = "each; for films shared"}},
       {"--white",
        &choices.white,
        "What PNG files show as white: the light of all sources together (lamps); the light on the "
        "surfaces in view, as far as an eye adapts to it: less where it is dim or warm (adapted); "
        "or D65, so that colours stay as they are (d65)",
        {.choices = {"lamps", "adapted", "d65"}}},
+      {"--tone",
+       &choices.tone,
+       "Contrast of NAME.png: neutral, as luminances are; or that of film, with deeper shadows",
+       {.choices = {"neutral", "film"}}},
+      {"--flames",
+       &choices.flames,
+       "Shape of steady flames in pictures: turbulent, as at one moment, or their mean. Light and "
+       "verdicts are always of the mean; flames of fire simulations stay as they are",
+       {.choices = {"moment", "mean"}}},
       {"--display-white",
        &choices.monitor.white_cd_m2,
        "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
@@ -103,8 +112,8 @@ Result<Exposure> parse_exposure(const std::string& text) {
   if (count != numbers.size() || !std::all_of(numbers.begin(), numbers.end(), in_range) ||
       !(out.grey_cd_m2 >= limits::min_exposure_cd_m2) || !(out.white_cd_m2 >= out.grey_cd_m2))
     return problem(
-        "--exposure takes GREY,WHITE,SIGN in cd/m2, as in 0.84,12,75, with grey above 0 "
-        "and white not below it, not \"" +
+        "--exposure takes each, shared, or GREY,WHITE,SIGN in cd/m2, as in 0.84,12,75, with grey "
+        "above 0 and white not below it, not \"" +
         text + "\"");
   return out;
 }
@@ -135,7 +144,8 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
     if (!error) return of_option("--picture-error", error.problem());
     picture.target_error = error.value();
   }
-  if (!choices.exposure.empty()) {
+  picture.share_exposure = choices.exposure == "shared";
+  if (!choices.exposure.empty() && choices.exposure != "each" && !picture.share_exposure) {
     const auto exposure = parse_exposure(choices.exposure);
     if (!exposure) return exposure.problem();
     picture.exposure = exposure.value();
@@ -143,6 +153,8 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
   picture.white = choices.white == "adapted" ? PictureWhite::adapted
                   : choices.white == "d65"   ? PictureWhite::d65
                                              : PictureWhite::lamps;
+  picture.tone = choices.tone == "film" ? ToneStyle::film : ToneStyle::neutral;
+  if (choices.flames == "moment") picture.flames_at_s = 0;
   picture.human.monitor = choices.monitor;
   if (auto read = read_sight(choices.sight, picture.human); !read) return read.problem();
   if (!(choices.monitor.white_cd_m2 > choices.monitor.black_cd_m2))
@@ -178,6 +190,11 @@ void tell_rendered(const RenderedViews& rendered) {
     log_info("exposure of \"{}\": {}", name, text_of(exposure));
 }
 
+void tell_flames(const CompiledScene& scene, const PictureOptions& picture) {
+  if (picture.flames_at_s && has_steady_flames(scene))
+    log_info("pictures show a moment of the flames; --flames mean shows their mean");
+}
+
 OutputPlan plan_of_views(const SceneDescription& scene) {
   OutputPlan plan{{}, {"views"}};
   for (size_t i = 0; i < scene.cameras.size(); ++i)
@@ -193,6 +210,7 @@ Result<ExitCode> render_aloud(const std::filesystem::path& folder, const LocalRu
                    [&](const PictureProgress& progress) { show_pictures(*line, progress); });
   line.reset();
   if (!rendered) return rendered.problem();
+  tell_flames(run.scene(), picture);
   tell_rendered(rendered.value());
   return rendered->interrupted ? ExitCode::interrupted : ExitCode::success;
 }

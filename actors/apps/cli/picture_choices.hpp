@@ -20,6 +20,7 @@ struct PictureChoices {
   std::string time, error;
   std::string exposure;
   std::string white = "lamps";
+  std::string flames = "moment", tone = "neutral";
   MonitorModel monitor;
   std::vector<std::string> sight;  // limits to apply; empty: all
 };
@@ -38,6 +39,8 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
 void show_pictures(ProgressLine& line, const PictureProgress& progress);
 /// Logs which pictures were written, and whether they were interrupted.
 void tell_rendered(const RenderedViews& rendered);
+/// Logs that pictures show a moment, if they do.
+void tell_flames(const CompiledScene& scene, const PictureOptions& picture);
 /// The files of pictures in the folder of their run.
 OutputPlan plan_of_views(const SceneDescription& scene);
 /// render_views with progress on the terminal, and a list of the pictures at the end.

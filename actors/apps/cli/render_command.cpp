@@ -17,6 +17,7 @@
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/pictures/film.hpp"
 #include "actors/results/pictures/pictures.hpp"
+#include "actors/results/pictures/shared_exposure.hpp"
 #include "actors/results/run/flux_store.hpp"
 #include "runtime/core/log.hpp"
 
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RenderOptions {
-  std::string folder;
+  std::vector<std::string> folders;
   std::string view;
   int threads = default_threads();
   int nodes = 0;
@@ -104,6 +105,7 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
         "--paths");
   NamedFilm out;
   out.film.human = options.human;
+  out.film.frames_per_s = options.fps;
   auto lens = lens_of(scene, options.view);
   if (!lens) return lens.problem();
   Result<std::vector<Camera>> cameras = std::vector<Camera>();
@@ -197,10 +199,23 @@ class FilmedClock {
   const size_t frames_;
 };
 
-/// Renders frames into DIR/films/NAME, and the film beside that. `clock`: null if it stands still.
+/// Frames in a folder, and the film that is made of them.
+struct MadeFrames {
+  fs::path folder, file;
+  size_t frames = 0;
+};
+
+/// What the runs of a call make together.
+struct Together {
+  std::optional<SharedExposure> exposure;  // nothing: each picture has its own, or the stated one
+  std::vector<OutputFolder> folders;       // held until all is written
+  std::vector<MadeFrames> films;           // with all their frames
+};
+
+/// Renders frames into DIR/films/NAME. `clock`: null if it stands still.
 Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const NamedFilm& named,
-                               const RenderOptions& options, const PictureOptions& picture,
-                               const FilmedClock* clock) {
+                               const PictureOptions& picture, const FilmedClock* clock,
+                               Together& together) {
   const auto& [film, name] = named;
   const fs::path frames = folder / "films" / name;
   const fs::path file = folder / "films" / (name + ".mp4");
@@ -231,17 +246,37 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
     log_warning("interrupted; {} of {} frames are there", made.value(), count);
     return ExitCode::interrupted;
   }
-  const auto video = write_video(file, frames, count, options.fps);
-  if (picture.interrupted()) {
-    log_warning("interrupted; {} frames are in {}", count, frames.string());
-    return ExitCode::interrupted;
+  tell_flames(run.scene(), picture);
+  together.films.push_back({frames, file, count});
+  return ExitCode::success;
+}
+
+/// Exposes the pictures that share an exposure.
+Result<void> expose(Together& together, int threads) {
+  if (!together.exposure || together.exposure->pictures() == 0) return {};
+  const auto exposure = together.exposure->write(threads);
+  if (!exposure) return exposure.problem();
+  log_info("exposure of {} pictures together: {}", together.exposure->pictures(),
+           text_of(exposure.value()));
+  return {};
+}
+
+/// Makes the films of frames.
+Result<ExitCode> make_videos(const std::vector<MadeFrames>& films, double fps,
+                             const PictureOptions& picture) {
+  for (const auto& [frames, file, count] : films) {
+    const auto video = write_video(file, frames, count, fps);
+    if (picture.interrupted()) {
+      log_warning("interrupted; {} frames are in {}", count, frames.string());
+      return ExitCode::interrupted;
+    }
+    if (!video) return video.problem();
+    if (video.value())
+      log_info("film: {} frames, and {}", count, file.string());
+    else
+      log_info("film: {} frames in {}; there is no ffmpeg on the path to make an MP4 file of them",
+               count, frames.string());
   }
-  if (!video) return video.problem();
-  if (video.value())
-    log_info("film: {} frames, and {}", count, file.string());
-  else
-    log_info("film: {} frames in {}; there is no ffmpeg on the path to make an MP4 file of them",
-             count, frames.string());
   return ExitCode::success;
 }
 
@@ -249,16 +284,15 @@ OutputPlan plan_of_film(const std::string& name) {
   return {{"films/" + name + ".mp4"}, {"films", "films/" + name}};
 }
 
-Result<ExitCode> render(const RenderOptions& options) {
-  const fs::path folder = options.folder;
+/// Renders one run.
+Result<ExitCode> render_run(const fs::path& folder, const RenderOptions& options,
+                            PictureOptions picture, Together& together) {
   const auto finished = read_finished_run(folder);
   if (!finished) return finished.problem();
   const auto of_run = scene_of_run(finished.value());
   if (!of_run) return of_run.problem();
   const auto& [scenario, scene] = of_run.value();
   const auto& description = scene->description;
-  PictureOptions picture;
-  if (auto ok = read_choices(options.limits, picture); !ok) return ok.problem();
   if (auto ok = check_views(*description, options.view, picture); !ok) return ok.problem();
   const auto film = film_of(*description, options);
   if (!film) return film.problem();
@@ -267,16 +301,12 @@ Result<ExitCode> render(const RenderOptions& options) {
     return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
   if (const auto refused = refused_by_inspection(description, {scenario}, options.threads))
     return problem_in(finished->scene_file, "the scene has errors, told above", *refused);
-  const auto out = OutputFolder::claim(
-      folder, filmed ? plan_of_film(filmed->name) : plan_of_views(*description));
+  auto out = OutputFolder::claim(folder,
+                                 filmed ? plan_of_film(filmed->name) : plan_of_views(*description));
   if (!out) return out.problem();
+  const fs::path into = together.folders.emplace_back(std::move(out).value()).path();
   LocalRun run(scene, finished->seed, options.threads);
-  if (auto ok = load_flux(out->path() / "flux.lux", run); !ok) return ok.problem();
-  install_interrupt_handler();
-  picture.progressive = true;
-  picture.gather = !options.full_paths;
-  picture.raw = options.raw;
-  picture.interrupt = &interrupt_flag();
+  if (auto ok = load_flux(into / "flux.lux", run); !ok) return ok.problem();
   std::unique_ptr<PictureNodes> nodes;
   if (options.nodes > 0) {
     auto started = PictureNodes::start(run, options.nodes);
@@ -284,13 +314,40 @@ Result<ExitCode> render(const RenderOptions& options) {
     nodes = std::move(started).value();
     picture.executor = &nodes->executor();
   }
+  if (picture.exposed_with == nullptr && picture.share_exposure)
+    picture.exposed_with = &together.exposure.emplace(into);
   if (filmed && !options.from.empty()) {
     const FilmedClock clock(finished.value(), run, options, filmed->film.cameras.size());
     if (auto ok = clock.check(); !ok) return ok.problem();
-    return render_frames(out->path(), run, *filmed, options, picture, &clock);
+    return render_frames(into, run, *filmed, picture, &clock, together);
   }
-  if (filmed) return render_frames(out->path(), run, *filmed, options, picture, nullptr);
-  return render_aloud(out->path(), run, options.view, picture);
+  if (filmed) return render_frames(into, run, *filmed, picture, nullptr, together);
+  return render_aloud(into, run, options.view, picture);
+}
+
+Result<ExitCode> render(const RenderOptions& options) {
+  PictureOptions picture;
+  if (auto ok = read_choices(options.limits, picture); !ok) return ok.problem();
+  // Frames of a film flicker if each has its own.
+  const bool films = !options.route.empty() || !options.through.empty();
+  if (films && options.limits.exposure.empty()) picture.share_exposure = true;
+  install_interrupt_handler();
+  picture.progressive = true;
+  picture.gather = !options.full_paths;
+  picture.raw = options.raw;
+  picture.interrupt = &interrupt_flag();
+  Together together;
+  ExitCode code = ExitCode::success;
+  for (const std::string& folder : options.folders) {
+    if (together.exposure) picture.exposed_with = &*together.exposure;
+    const auto rendered = render_run(folder, options, picture, together);
+    if (!rendered) return rendered.problem();
+    code = rendered.value();
+    if (code != ExitCode::success) break;
+  }
+  if (auto ok = expose(together, options.threads); !ok) return ok.problem();
+  if (code != ExitCode::success) return code;
+  return make_videos(together.films, options.fps, picture);
 }
 
 }  // namespace
@@ -299,7 +356,10 @@ namespace {
 
 std::vector<Option> render_options(RenderOptions& o) {
   std::vector<Option> all{
-      {"dir", &o.folder, "Folder of a finished run", {.form = Form::folder, .required = true}},
+      {"dir",
+       &o.folders,
+       "Folder of a finished run, or several",
+       {.form = Form::folder, .required = true}},
       {"--view", &o.view, "Name of one camera", {.form = Form::name, .otherwise = "all cameras"}}};
   for (Option& option : options_of(o.limits, "--paths")) all.push_back(std::move(option));
   const std::vector<Option> more{
@@ -335,7 +395,7 @@ std::vector<Option> render_options(RenderOptions& o) {
        {.range = Range{0.1, 10}, .group = "Film", .needs = "--route"}},
       {"--human",
        &o.human,
-       "Frames as an adapted eye sees them, instead of one exposure each",
+       "Frames as an adapted eye sees them, instead of one exposure",
        {.group = "Film"}},
       {"--from",
        &o.from,
@@ -382,6 +442,10 @@ Command render_command() {
           "keeps the pictures of the paths that all of their pixels have. The last quarter of the "
           "paths goes where the filter would leave most error; not with --raw, in films, or with "
           "fewer than 16.\n\n"
+          "Clear air, smoke and the dark are runs of their own. Their pictures can be compared if "
+          "they share one exposure:\n"
+          "  luxodus render out/clear out/smoke out/dark --view corridor --exposure shared\n"
+          "With --white adapted they then share one white, too.\n\n"
           "With --route it renders a film instead: what somebody sees who walks a route of the "
           "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "
           "DIR/films/ROUTE.mp4. With --through it goes through cameras of the scene instead:\n"

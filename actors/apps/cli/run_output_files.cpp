@@ -131,6 +131,7 @@ Result<void> RunOutputFiles::write_results(const LocalRun& run, StopReason reaso
   if (!reported)
     if (auto ok = report(); !ok) return ok;
   if (!rendered) return rendered.problem();
+  tell_flames(run.scene(), options_.picture);
   tell_rendered(rendered.value());
   return {};
 }

@@ -10,7 +10,9 @@
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/run_program.hpp"
 #include "actors/results/pictures/picture_tiles.hpp"
+#include "actors/results/pictures/shared_exposure.hpp"
 #include "actors/results/pictures/view_files.hpp"
+#include "actors/results/run/default_threads.hpp"
 #include "scenes/emergency/way.hpp"
 
 namespace luxodus {
@@ -174,10 +176,16 @@ namespace {
 /// Frames that share a state, and with it one transfer of the flux.
 constexpr size_t frames_of_a_state = 16;
 
-std::vector<TiledView> frames_from(const std::vector<Camera>& cameras, size_t first) {
+/// The moment of steady flames in a frame: they move in the time of the film.
+std::optional<double> flames_at(const Film& film, size_t frame, const PictureOptions& options) {
+  if (!options.flames_at_s) return std::nullopt;
+  return *options.flames_at_s + static_cast<double>(frame) / film.frames_per_s;
+}
+
+std::vector<TiledView> frames_from(const Film& film, size_t first, const PictureOptions& options) {
   std::vector<TiledView> views;
-  for (size_t k = first; k < std::min(first + frames_of_a_state, cameras.size()); ++k)
-    views.push_back({cameras[k]});
+  for (size_t k = first; k < std::min(first + frames_of_a_state, film.cameras.size()); ++k)
+    views.push_back({film.cameras[k], 0, false, {}, flames_at(film, k, options)});
   return views;
 }
 
@@ -199,19 +207,24 @@ class FramesOfRun {
   /// False if it was interrupted. Errors: as write_shown_png.
   Result<bool> render(size_t k, const std::function<void(double frames)>& progress) {
     const Camera& camera = film_.cameras[k];
-    ViewPasses view(run_, camera, 0, flux_.radiance.get(), flux_.sight);
+    PictureOptions options = options_;
+    options.flames_at_s = flames_at(film_, k, options_);
+    ViewPasses view(run_, camera, 0, flux_.radiance.get(), flux_.sight, options.flames_at_s);
     const auto tell = [&](double share) {
       if (progress) progress(static_cast<double>(k) + share);
     };
     if (options_.executor != nullptr && k % frames_of_a_state == 0)
-      elsewhere_.emplace(run_, frames_from(film_.cameras, k), options_.paths_per_pixel, options_,
+      elsewhere_.emplace(run_, frames_from(film_, k, options_), options_.paths_per_pixel, options_,
                          flux_);
     const bool whole =
         elsewhere_ ? elsewhere_->add(k % frames_of_a_state, view, options_.paths_per_pixel, tell)
                    : view.add(options_.paths_per_pixel, options_, tell);
     if (!whole) return false;
-    const ShownView shown(view.picture(), view.paths(), options_, run_.threads());
-    auto written = write_shown_png(folder_ / name_of_frame(k), film_.human, run_, camera, shown);
+    const ShownView shown(view.picture(), view.paths(), options, run_.threads());
+    const fs::path file = folder_ / name_of_frame(k);
+    auto written = options_.exposed_with != nullptr && !film_.human
+                       ? options_.exposed_with->keep(file, run_, camera, shown)
+                       : write_shown_png(file, film_.human, run_, camera, shown);
     if (!written) return written.problem();
     return true;
   }
@@ -232,23 +245,12 @@ size_t frames_of_state(double step_s, double seconds_per_frame) {
   return static_cast<size_t>(std::clamp(frames, 1.0, double{limits::max_film_frames}));
 }
 
-Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Film& film,
-                           const PictureOptions& options,
-                           const std::function<void(double frames)>& progress) {
-  if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
-  FramesOfRun frames(folder, run, film, options);
-  for (size_t k = 0; k < film.cameras.size(); ++k) {
-    const auto whole = frames.render(k, progress);
-    if (!whole) return whole.problem();
-    if (!whole.value()) return k;
-  }
-  return film.cameras.size();
-}
+namespace {
 
-Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, const Film& film,
-                           const PictureOptions& options,
-                           const std::function<void(double frames)>& progress) {
-  if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
+/// How many frames are there, if it was interrupted or not.
+Result<size_t> render_frames(const fs::path& folder, const FilmedStates& states, const Film& film,
+                             const PictureOptions& options,
+                             const std::function<void(double frames)>& progress) {
   for (size_t first = 0; first < film.cameras.size(); first += states.frames) {
     const auto run = states.run(first / states.frames);
     if (!run) return run.problem();
@@ -261,6 +263,34 @@ Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, c
     }
   }
   return film.cameras.size();
+}
+
+}  // namespace
+
+Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Film& film,
+                           const PictureOptions& options,
+                           const std::function<void(double frames)>& progress) {
+  using Run = std::shared_ptr<const LocalRun>;
+  const Run not_owned(Run(), &run);
+  return render_film(
+      folder,
+      {std::max<size_t>(1, film.cameras.size()), [&](size_t) -> Result<Run> { return not_owned; }},
+      film, options, progress);
+}
+
+Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, const Film& film,
+                           const PictureOptions& options,
+                           const std::function<void(double frames)>& progress) {
+  if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
+  PictureOptions of_call = options;
+  std::optional<SharedExposure> shared;
+  if (options.share_exposure && options.exposed_with == nullptr)
+    of_call.exposed_with = &shared.emplace(folder);
+  const auto made = render_frames(folder, states, film, of_call, progress);
+  if (!made || !shared || shared->pictures() == 0) return made;
+  const auto exposure = shared->write(default_threads());
+  if (!exposure) return exposure.problem();
+  return made;
 }
 
 Result<bool> write_video(const fs::path& file, const fs::path& folder, size_t frames,

@@ -1,7 +1,7 @@
 // Films: the view of a person who walks a route, or a camera move through the scene's cameras,
 // frame by frame, from the flux of one run, or of one run per state of a scene that changes in
-// time. A frame is the filtered picture of a camera, with that camera's own exposure or with
-// the one of the options. One call at a time per run.
+// time. A frame is the filtered picture of a camera, with that camera's own exposure, with one that
+// all frames share, or with the one of the options. One call at a time per run.
 #pragma once
 
 #include <filesystem>
@@ -49,7 +49,8 @@ std::vector<std::string> film_names(const SceneDescription& scene, const std::st
 
 struct Film {
   std::vector<Camera> cameras;
-  bool human = false;  // as an adapted eye sees it, instead of one exposure
+  bool human = false;        // as an adapted eye sees it, instead of one exposure
+  double frames_per_s = 12;  // how fast steady flames move
 };
 
 /// The states that a film goes through, each with the same number of consecutive frames.
@@ -70,7 +71,8 @@ std::string name_of_frame(size_t frame);
 /// Renders the frames into `folder` (made if missing), after removing frames of an earlier film.
 /// Returns how many are there: fewer than cameras if it was interrupted. All frames use the random
 /// numbers of the scene's first camera, so that a frame from that camera is its picture, bit for
-/// bit. `progress`: frames done, including the share of the current one.
+/// bit. `progress`: frames done, including the share of the current one. Frames that share an
+/// exposure are files only at the end, when it is known.
 /// Errors: as write_png; a folder that cannot be made; those of `states`.
 Result<size_t> render_film(const std::filesystem::path& folder, const LocalRun& run,
                            const Film& film, const PictureOptions& options,

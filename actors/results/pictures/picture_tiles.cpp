@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -124,7 +125,7 @@ class TileWorker final : public BatchWorker {
       const LocalRun& run = state_.run();
       const TiledView& view = view_of(batch_);
       tracer.emplace(run.scene(), GeometryAccess::resident(run.index()), run.seed(), view.camera,
-                     view.number, state_.flux(), state_.sight());
+                     view.number, state_.flux(), state_.sight(), view.flames_at_s);
     }
     return *tracer;
   }
@@ -217,11 +218,16 @@ glm::dvec3 vector_of(const Json& three) {
 
 Json json_of(const TiledView& view) {
   const Camera& camera = view.camera;
-  return {{"eye", three(camera.eye)},  {"target", three(camera.target)},
-          {"up", three(camera.up)},    {"vertical_fov_deg", camera.vertical_fov_deg},
-          {"width", camera.width},     {"height", camera.height},
-          {"number", view.number},     {"first", view.first},
-          {"ends", !view.ends.empty()}};
+  return {{"eye", three(camera.eye)},
+          {"target", three(camera.target)},
+          {"up", three(camera.up)},
+          {"vertical_fov_deg", camera.vertical_fov_deg},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"number", view.number},
+          {"first", view.first},
+          {"ends", !view.ends.empty()},
+          {"flames_at_s", view.flames_at_s ? Json(*view.flames_at_s) : Json()}};
 }
 
 TiledView view_of(const Json& object) {
@@ -234,6 +240,8 @@ TiledView view_of(const Json& object) {
   view.camera.height = object.at("height").get<int>();
   view.number = object.at("number").get<uint64_t>();
   view.first = object.at("first").get<bool>();
+  if (const Json& moment = object.at("flames_at_s"); !moment.is_null())
+    view.flames_at_s = moment.get<double>();
   return view;
 }
 
@@ -244,7 +252,8 @@ bool is_picture(const TiledView& view) {
          camera.height <= limits::max_picture_edge &&
          ViewPasses::bytes_of(camera) <= limits::max_view_bytes && camera.vertical_fov_deg > 0 &&
          camera.vertical_fov_deg < 180 && camera.eye != camera.target &&
-         camera.up != glm::dvec3(0) && view.number >> 16 == 0;
+         camera.up != glm::dvec3(0) && view.number >> 16 == 0 &&
+         std::isfinite(view.flames_at_s.value_or(0));
 }
 
 /// Ends are multiples of four, up to 2^16: two bytes each, the lower one first.

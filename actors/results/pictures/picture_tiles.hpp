@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct TiledView {
   bool first = false;   // whether a first picture is traced before it (ViewPasses::add_first)
   /// Ends of the allocated paths of all pixels (ViewPasses::allocate); empty without allocation.
   std::vector<HalfEnds> ends = {};
+  std::optional<double> flames_at_s = {};  // moment of steady flames; nothing: their mean
 };
 
 /// The pictures of a state.

@@ -45,12 +45,14 @@ int next_pass(int paths) {
 }
 
 ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
-                       const RadianceCache* flux, std::shared_ptr<const EmitterSight> sight)
+                       const RadianceCache* flux, std::shared_ptr<const EmitterSight> sight,
+                       std::optional<double> flames_at_s)
     : run_(run),
       camera_(camera),
       number_(number),
       flux_(flux),
       sight_(std::move(sight)),
+      flames_at_s_(flames_at_s),
       sums_(pixels()) {}
 
 size_t ViewPasses::pixels() const {
@@ -72,7 +74,7 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {
     auto tracer = std::make_shared<PixelTracer>(run_.scene(), access, run_.seed(), camera_, number_,
-                                                flux_, sight_);
+                                                flux_, sight_, flames_at_s_);
     return [&, tracer](int64_t unit) {
       const int row = static_cast<int>(unit / parts);
       const int first = static_cast<int>(unit % parts) * columns_at_once;
@@ -280,7 +282,7 @@ TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, i
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const RadianceCache* flux, const ShareDone& progress) {
   ViewPasses view(run, run.scene().description->cameras[camera], camera, flux,
-                  make_emitter_sight(run.scene()));
+                  make_emitter_sight(run.scene()), options.flames_at_s);
   const int even = even_paths(options), more = options.paths_per_pixel - even;
   const double share = static_cast<double>(even) / options.paths_per_pixel;
   const auto tell = [&](double done) {

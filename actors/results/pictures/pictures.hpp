@@ -27,6 +27,7 @@
 namespace luxodus {
 
 class Executor;
+class SharedExposure;
 
 namespace limits {
 /// Memory of the sums of one picture [bytes], of 36 megapixels; and of those that are traced
@@ -57,8 +58,15 @@ struct PictureOptions {
   /// PNG files show traced instead of filtered light. All pixels then have the same number of
   /// paths; otherwise some are allocated where the filter leaves most error (even_paths).
   bool raw = false;
-  std::optional<Exposure> exposure;  // of plain pictures; nothing: each has its own
+  std::optional<Exposure> exposure;  // of plain pictures; nothing: each has its own, or
+  bool share_exposure = false;       // all of a call have one (shared_exposure.hpp)
+  /// Shares it with the pictures of other calls, and is written by the caller; null: it is not.
+  SharedExposure* exposed_with = nullptr;
   PictureWhite white = PictureWhite::lamps;
+  ToneStyle tone = ToneStyle::neutral;  // of plain pictures
+  /// Moment of steady flames, which then are turbulent (flame_shape.hpp); nothing: their mean. Of a
+  /// film, that of its first frame.
+  std::optional<double> flames_at_s;
   HumanTone human;  // monitor and limits of sight of human views; angles are those of each camera
   /// When set, the current work ends within a pixel, and incomplete pictures are not written. Null:
   /// no interruption.
@@ -124,9 +132,11 @@ class ViewPasses {
   /// `number`: seeds the random numbers, one per camera; below 2^16. `flux`: the light that paths
   /// end in, or null. `sight`: from make_emitter_sight, shared by all pictures of the run; pixels
   /// do not depend on its cache. Both may be null if only the results of others are taken.
+  /// `flames_at_s`: the moment of steady flames; nothing: their mean.
   /// Requires: run and flux outlive this.
   ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const RadianceCache* flux,
-             std::shared_ptr<const EmitterSight> sight);
+             std::shared_ptr<const EmitterSight> sight,
+             std::optional<double> flames_at_s = std::nullopt);
   ViewPasses(const ViewPasses&) = delete;
   ViewPasses& operator=(const ViewPasses&) = delete;
 
@@ -171,6 +181,7 @@ class ViewPasses {
   const uint64_t number_;
   const RadianceCache* flux_;
   std::shared_ptr<const EmitterSight> sight_;  // shared by all pictures and threads
+  const std::optional<double> flames_at_s_;
   std::vector<PixelSums> sums_;
   int paths_ = 0;        // of each pixel
   int allocated_ = 0;    // in addition, on average

@@ -50,13 +50,16 @@ std::optional<glm::dvec2> Pinhole::pixel_of(const glm::dvec3& place) const {
 
 PixelTracer::PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
                          const Camera& camera, uint64_t number, const RadianceCache* flux,
-                         std::shared_ptr<const EmitterSight> sight)
+                         std::shared_ptr<const EmitterSight> sight,
+                         std::optional<double> flames_at_s)
     : scene_(scene),
       tracer_(make_picture_tracer(scene, access, seed, std::move(sight))),
       pinhole_(camera, scene.local_origin),
       first_path_(number << camera_shift),
       flux_(flux),
-      white_(light_of(std::vector<double>(static_cast<size_t>(scene.bands.count()), 1.0))) {}
+      white_(light_of(std::vector<double>(static_cast<size_t>(scene.bands.count()), 1.0))) {
+  if (flames_at_s) tracer_->show_flames_at(*flames_at_s);
+}
 
 void PixelTracer::trace(int column, int row, uint64_t pixel, const PathRange& paths,
                         PixelSums& sums) {

@@ -39,10 +39,11 @@ class PixelTracer {
  public:
   /// `number`: seeds the random numbers, one per camera; below 2^16. `flux`: the light that paths
   /// end in, or null.
-  /// `sight`: from make_emitter_sight. Requires: what is referred to outlives this.
+  /// `sight`: from make_emitter_sight. `flames_at_s`: the moment of steady flames; nothing: their
+  /// mean. Requires: what is referred to outlives this.
   PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
               const Camera& camera, uint64_t number, const RadianceCache* flux,
-              std::shared_ptr<const EmitterSight> sight);
+              std::shared_ptr<const EmitterSight> sight, std::optional<double> flames_at_s);
 
   /// Adds paths of a pixel; `pixel`: row * width + column, below 2^28.
   /// Requires: ends <= limits::max_paths_per_pixel.

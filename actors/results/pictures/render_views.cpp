@@ -13,6 +13,7 @@
 
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/pictures/picture_tiles.hpp"
+#include "actors/results/pictures/shared_exposure.hpp"
 #include "actors/results/pictures/view_files.hpp"
 
 namespace luxodus {
@@ -67,10 +68,11 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
 }
 
 struct GrowingView {
-  GrowingView(const LocalRun& run, size_t of, const PictureFlux& flux)
+  GrowingView(const LocalRun& run, size_t of, const PictureFlux& flux,
+              std::optional<double> flames_at_s)
       : camera(run.scene().description->cameras[of]),
         number(of),
-        passes(run, camera, of, flux.radiance.get(), flux.sight) {}
+        passes(run, camera, of, flux.radiance.get(), flux.sight, flames_at_s) {}
 
   double pixels() const { return static_cast<double>(camera.width) * camera.height; }
 
@@ -105,7 +107,7 @@ class GrowingViews {
         progress_(std::move(progress)) {}
 
   void add(size_t camera, const std::filesystem::path& stem) {
-    views_.emplace_back(run_, camera, flux_).stem = stem;
+    views_.emplace_back(run_, camera, flux_, options_.flames_at_s).stem = stem;
     pixels_ += views_.back().pixels();
   }
 
@@ -294,6 +296,12 @@ class GrowingViews {
     // Metered once for the file and for the console.
     for (GrowingView* const view : shown)
       view->exposure = view->shown->exposure = shown_exposure(run_, view->camera, *view->shown);
+    if (options_.exposed_with != nullptr)
+      for (const GrowingView* const view : shown)
+        if (auto ok = options_.exposed_with->keep(std::filesystem::path(view->stem) += ".png", run_,
+                                                  view->camera, *view->shown);
+            !ok)
+          return ok;
     std::mutex mutex;
     Result<void> outcome;
     const auto write_one = [&](int64_t unit) {
@@ -315,7 +323,8 @@ class GrowingViews {
   std::vector<TiledView> tiled_views() const {
     std::vector<TiledView> views;
     for (const GrowingView& view : views_)
-      views.push_back({view.camera, view.number, view.shows_first(options_)});
+      views.push_back(
+          {view.camera, view.number, view.shows_first(options_), {}, options_.flames_at_s});
     return views;
   }
 
@@ -387,6 +396,43 @@ Result<void> check_views(const SceneDescription& scene, const std::string& only_
   return {};
 }
 
+namespace {
+
+Result<RenderedViews> render_all(const std::filesystem::path& folder, const LocalRun& run,
+                                 const std::vector<size_t>& views, const PictureOptions& options,
+                                 const std::function<void(const PictureProgress&)>& progress,
+                                 const std::function<Result<void>()>& after_first) {
+  const SceneDescription& scene = *run.scene().description;
+  RenderedViews rendered;
+  const PictureFlux flux = picture_flux(run, options);
+  const std::vector<std::string> names = result_names(scene).views;
+  double seconds = options.max_seconds, done = 0;
+  double left = pixels_of(scene, views);
+  const double all = left;
+  rendered.paths = std::numeric_limits<int>::max();
+  for (const std::vector<size_t>& group : in_groups(scene, views)) {
+    const double pixels = pixels_of(scene, group);
+    const auto tell = [&](PictureProgress of_group) {
+      of_group.share = (done + of_group.share * pixels) / all;
+      if (progress) progress(of_group);
+    };
+    GrowingViews growing(run, options, flux, seconds * pixels / left, tell);
+    for (const size_t view : group) growing.add(view, folder / "views" / names[view]);
+    if (auto ok = growing.grow(after_first); !ok) return ok.problem();
+    growing.add_exposures(rendered.exposures);
+    rendered.paths = std::min(rendered.paths, growing.paths());
+    if (!(growing.error() <= rendered.relative_error)) rendered.relative_error = growing.error();
+    rendered.interrupted = growing.interrupted();
+    if (rendered.interrupted) return rendered;
+    seconds = std::max(seconds - growing.seconds(), seconds > 0 ? 1e-3 : 0);
+    left -= pixels;
+    done += pixels;
+  }
+  return rendered;
+}
+
+}  // namespace
+
 Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
                                    const std::string& only_view, const PictureOptions& options,
                                    const std::function<void(const PictureProgress&)>& progress,
@@ -399,38 +445,24 @@ Result<RenderedViews> render_views(const std::filesystem::path& folder, const Lo
     const auto work = std::exchange(once, nullptr);
     return work ? work() : Result<void>();
   };
-  RenderedViews rendered;
   if (views->empty()) {
     if (auto ok = once_after_first(); !ok) return ok.problem();
-    return rendered;
+    return RenderedViews();
   }
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
   if (error) return system_problem(folder / "views", "cannot make this folder", error.value());
-  const PictureFlux flux = picture_flux(run, options);
-  const std::vector<std::string> names = result_names(scene).views;
-  double seconds = options.max_seconds, done = 0;
-  double left = pixels_of(scene, views.value());
-  const double all = left;
-  rendered.paths = std::numeric_limits<int>::max();
-  for (const std::vector<size_t>& group : in_groups(scene, views.value())) {
-    const double pixels = pixels_of(scene, group);
-    const auto tell = [&](PictureProgress of_group) {
-      of_group.share = (done + of_group.share * pixels) / all;
-      if (progress) progress(of_group);
-    };
-    GrowingViews growing(run, options, flux, seconds * pixels / left, tell);
-    for (const size_t view : group) growing.add(view, folder / "views" / names[view]);
-    if (auto ok = growing.grow(once_after_first); !ok) return ok.problem();
-    growing.add_exposures(rendered.exposures);
-    rendered.paths = std::min(rendered.paths, growing.paths());
-    if (!(growing.error() <= rendered.relative_error)) rendered.relative_error = growing.error();
-    rendered.interrupted = growing.interrupted();
-    if (rendered.interrupted) return rendered;
-    seconds = std::max(seconds - growing.seconds(), seconds > 0 ? 1e-3 : 0);
-    left -= pixels;
-    done += pixels;
-  }
+  PictureOptions of_call = options;
+  std::optional<SharedExposure> shared;
+  if (options.share_exposure && options.exposed_with == nullptr)
+    of_call.exposed_with = &shared.emplace(folder / "views");
+  auto rendered = render_all(folder, run, views.value(), of_call, progress, once_after_first);
+  if (!rendered) return rendered;
+  if (options.exposed_with != nullptr) rendered->exposures.clear();
+  if (!shared || shared->pictures() == 0) return rendered;
+  const auto exposure = shared->write(run.threads());
+  if (!exposure) return exposure.problem();
+  for (auto& [name, of_picture] : rendered->exposures) of_picture = exposure.value();
   return rendered;
 }
 

@@ -13,10 +13,11 @@
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/formats/false_colour_png.hpp"
 #include "actors/results/formats/plot_axis.hpp"
+#include "actors/results/pictures/flames_in_view.hpp"
 #include "actors/results/pictures/light_in_view.hpp"
 #include "actors/results/pictures/signs_in_view.hpp"
 #include "scenes/light/optics/chromaticity.hpp"
-#include "scenes/light/vision/adapted_white.hpp"
+#include "scenes/light/transport/flame_moment.hpp"
 #include "scenes/light/vision/tone.hpp"
 
 namespace luxodus {
@@ -33,14 +34,6 @@ glm::dmat3 srgb_from_xyz() {
     xyz[c] = {column[0], column[1], column[2]};
   }
   return glm::inverse(xyz);
-}
-
-std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera) {
-  const CompiledScene& scene = run.scene();
-  return {{"Software", "luxodus"},
-          {"Scene", scene.description->name},
-          {"Scenario", scene.scenario.name},
-          {"View", camera.name}};
 }
 
 /// Light by tristimulus values, as linear sRGB and as scotopic luminance, in a layer: "" or
@@ -109,7 +102,7 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
   add_features(image, traced.noisy);
   image.chromaticities = Chromaticities{};
   image.white_luminance_cd_m2 = 1.0f;
-  image.text = texts_of(run, camera);
+  image.text = texts_of(run, camera, view);
   image.text.emplace_back(
       "comments",
       std::string("R, G, B: linear sRGB, not clipped; white of 1 is 1 cd/m2. XYZ: CIE 1931 of the "
@@ -129,65 +122,6 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
                    {"display_black_cd_m2", view.human.monitor.black_cd_m2},
                    {"degrees_per_pixel", degrees_per_pixel(camera)}};
   return image;
-}
-
-/// Light that an eye or a camera adapts to as white: within this of black bodies of these
-/// temperatures. Flames alone stay orange.
-constexpr double min_white_kelvin = 2500, max_white_kelvin = 10000, max_white_duv = 0.02;
-
-template <class Shown>
-void recolour(XyzPicture& picture, const Shown& shown) {
-  for (size_t i = 0; i < picture.pixels(); ++i) {
-    float* p = &picture.xyz[3 * i];
-    const Xyz seen =
-        shown({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
-    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c]);
-  }
-}
-
-/// As seen by an eye adapted to the scene's lamps, on a monitor whose white is D65.
-void balance_by_lamps(const CompiledScene& scene, XyzPicture& picture) {
-  Xyz light{0, 0, 0};
-  for (const Group& g : scene.groups) {
-    for (int b = 0; b < scene.bands.count(); ++b) {
-      const double watts = g.power_w[static_cast<size_t>(b)];
-      light[0] += watts * scene.bands[b].x_per_w;
-      light[1] += watts * scene.bands[b].lm_per_w;
-      light[2] += watts * scene.bands[b].z_per_w;
-    }
-  }
-  const ColourTemperature white = correlated_colour_temperature(light);
-  if (white.kelvin < min_white_kelvin || white.kelvin > max_white_kelvin ||
-      white.duv > max_white_duv) {
-    return;
-  }
-  recolour(picture, [&](const Xyz& colour) {
-    return with_luminance(adapt_white(colour, light, d65_white), colour[1]);
-  });
-}
-
-/// A picture of another size than the traced one, such as a first one, is balanced by the same
-/// light.
-XyzPicture white_balanced(const CompiledScene& scene, const ShownView& view, XyzPicture picture) {
-  if (view.white == PictureWhite::lamps) balance_by_lamps(scene, picture);
-  if (view.white != PictureWhite::adapted) return picture;
-  if (view.surfaces) {
-    const AdaptedWhite white(*view.surfaces, view.human.monitor.white_cd_m2);
-    recolour(picture, [&](const Xyz& colour) { return white.on_monitor(colour); });
-  }
-  return picture;
-}
-
-/// The text "White" of PNG files.
-std::string white_text(const ShownView& view) {
-  if (view.white == PictureWhite::d65) return "D65";
-  if (view.white == PictureWhite::lamps) return "light of all sources";
-  if (!view.surfaces) return "D65: no lit surface is in view";
-  const ColourTemperature of = correlated_colour_temperature(*view.surfaces);
-  return fmt::format(
-      "light on the surfaces in view, {:.0f} K, {:.3g} cd/m2, as far as an eye adapts to it "
-      "(Fairchild 1991)",
-      of.kelvin, (*view.surfaces)[1]);
 }
 
 PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::string& description) {
@@ -250,7 +184,7 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, cons
                          range.low, range.high, 100 * left_out_below, 100 * left_out_above),
              std::to_string(view.paths) + " paths per pixel, flux of " +
                  std::to_string(run.particles()) + " particles"};
-  p.text = texts_of(run, camera);
+  p.text = texts_of(run, camera, view);
   return p;
 }
 
@@ -268,26 +202,17 @@ PngImage human_png(const LocalRun& run, const Camera& camera, const ShownView& v
                    const XyzPicture& balanced, HumanTone human) {
   human.degrees_per_pixel = degrees_per_pixel(camera);
   const MonitorModel& monitor = human.monitor;
-  std::vector<ImageText> texts = texts_of(run, camera);
+  std::vector<ImageText> texts = texts_of(run, camera, view);
   texts.emplace_back("Display white [cd/m2]", fmt::format("{:g}", monitor.white_cd_m2));
   texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", monitor.black_cd_m2));
   texts.emplace_back("Degrees per pixel", fmt::format("{:.6g}", human.degrees_per_pixel));
   texts.emplace_back("Limits of sight", limits_of_sight(human));
-  texts.emplace_back("White", white_text(view));
+  texts.emplace_back("White", white_balance_of(run, view).text());
   return png_of(tone_human(balanced, human), texts,
                 fmt::format("What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko "
                             "1997), shown on a monitor of {:g} cd/m2; luminance data is in the EXR "
                             "file",
                             monitor.white_cd_m2));
-}
-
-PngImage plain_png(const LocalRun& run, const Camera& camera, const ShownView& view,
-                   const XyzPicture& balanced, const Exposure& exposure) {
-  std::vector<ImageText> texts = texts_of(run, camera);
-  texts.emplace_back("Exposure", text_of(exposure));
-  texts.emplace_back("White", white_text(view));
-  return png_of(tone_plain(balanced, exposure.curve()), texts,
-                "One exposure, as a camera takes it; luminance data is in the EXR file");
 }
 
 /// Enlarges a picture of half the size, linearly between pixels.
@@ -325,10 +250,53 @@ ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOp
       paths(paths_per_pixel),
       human(options.human),
       white(options.white),
+      tone(options.tone),
+      flames_at_s(options.flames_at_s),
       exposure(options.exposure) {
   if (white == PictureWhite::adapted) surfaces = light_on_surfaces(traced);
   if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
   raw = options.raw || !filtered;
+}
+
+std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  const CompiledScene& scene = run.scene();
+  std::vector<ImageText> out{{"Software", "luxodus"},
+                             {"Scene", scene.description->name},
+                             {"Scenario", scene.scenario.name},
+                             {"View", camera.name}};
+  if (has_steady_flames(scene))
+    out.emplace_back("Flames", view.flames_at_s
+                                   ? fmt::format("a moment, at {:g} s; the light they cast and all "
+                                                 "verdicts are of their mean",
+                                                 *view.flames_at_s)
+                                   : "their mean");
+  return out;
+}
+
+WhiteBalance white_balance_of(const LocalRun& run, const ShownView& view) {
+  WhiteBalance out{view.white, {}, view.surfaces, view.human.monitor.white_cd_m2};
+  if (view.white == PictureWhite::lamps) out.lamps = white_of_lamps(run.scene());
+  return out;
+}
+
+double brightest_sign(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  return brightest_face(view.shown(), signs_in_view(run.scene(), camera, view.traced.noisy));
+}
+
+double brightest_sign_or_flame(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  return std::max(brightest_sign(run, camera, view),
+                  brightest_flame(run.scene(), camera, view.traced.noisy, view.shown()));
+}
+
+PngImage plain_png(const XyzPicture& balanced, const Exposure& exposure, ToneStyle tone,
+                   const WhiteBalance& white, std::vector<ImageText> texts) {
+  CameraCurve curve = exposure.curve();
+  curve.film = tone == ToneStyle::film;
+  texts.emplace_back("Exposure", text_of(exposure));
+  if (curve.film) texts.emplace_back("Tone", "contrast of film");
+  texts.emplace_back("White", white.text());
+  return png_of(tone_plain(balanced, curve), std::move(texts),
+                "One exposure, as a camera takes it; luminance data is in the EXR file");
 }
 
 double ShownView::error() const {
@@ -338,18 +306,16 @@ double ShownView::error() const {
 
 namespace {
 
-/// Luminance of the brightest face of a sign that a view shows [cd/m2].
-double sign_in(const LocalRun& run, const Camera& camera, const ShownView& view) {
-  return brightest_face(view.shown(), signs_in_view(run.scene(), camera, view.traced.noisy));
-}
-
 /// `light`: what `view` shows, of the camera's size.
 PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const ShownView& view,
                   const XyzPicture& light) {
-  const XyzPicture balanced = white_balanced(run.scene(), view, light);
-  if (!human) return plain_png(run, camera, view, balanced, shown_exposure(run, camera, view));
+  const WhiteBalance white = white_balance_of(run, view);
+  const XyzPicture balanced = white.balanced(light);
+  if (!human)
+    return plain_png(balanced, shown_exposure(run, camera, view), view.tone, white,
+                     texts_of(run, camera, view));
   HumanTone tone = view.human;
-  tone.sign_cd_m2 = sign_in(run, camera, view);
+  tone.sign_cd_m2 = brightest_sign(run, camera, view);
   return human_png(run, camera, view, balanced, tone);
 }
 
@@ -357,7 +323,8 @@ PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const S
 
 Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view) {
   if (view.exposure) return *view.exposure;
-  return exposure_of(white_balanced(run.scene(), view, view.shown()), sign_in(run, camera, view));
+  return exposure_of(white_balance_of(run, view).balanced(view.shown()),
+                     brightest_sign_or_flame(run, camera, view));
 }
 
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {

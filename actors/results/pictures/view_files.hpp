@@ -7,6 +7,7 @@
 #include <string>
 
 #include "actors/results/pictures/pictures.hpp"
+#include "actors/results/pictures/white_balance.hpp"
 #include "scenes/formats/images/write_image.hpp"
 #include "scenes/light/optics/chromaticity.hpp"
 
@@ -29,8 +30,10 @@ struct ShownView {
   bool raw;
   HumanTone human;
   PictureWhite white;
-  std::optional<Xyz> surfaces;       // the light on them, if that is white; none: none is lit
-  std::optional<Exposure> exposure;  // of PNG files; nothing: the picture's own
+  ToneStyle tone;
+  std::optional<double> flames_at_s;  // as in PictureOptions
+  std::optional<Xyz> surfaces;        // the light on them, if that is white; none: none is lit
+  std::optional<Exposure> exposure;   // of PNG files; nothing: the picture's own
 };
 
 /// "0.84,12,75": middle grey, white and the brightest sign [cd/m2], as `--exposure` takes them. The
@@ -45,6 +48,18 @@ inline constexpr size_t view_file_count = 4;
 /// too large is omitted (is_mapped). Errors: as write_exr and write_png.
 Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
                              const Camera& camera, const ShownView& view);
+
+/// What made a picture, from what.
+std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera, const ShownView& view);
+WhiteBalance white_balance_of(const LocalRun& run, const ShownView& view);
+/// Luminance of the brightest face of a sign that a view shows [cd/m2]; 0: none.
+double brightest_sign(const LocalRun& run, const Camera& camera, const ShownView& view);
+/// The same, or that of the brightest steady flame (flames_in_view.hpp): plain pictures show
+/// neither brighter than sign_level.
+double brightest_sign_or_flame(const LocalRun& run, const Camera& camera, const ShownView& view);
+/// The plain picture of this light, as it looks in its white.
+PngImage plain_png(const XyzPicture& balanced, const Exposure& exposure, ToneStyle tone,
+                   const WhiteBalance& white, std::vector<ImageText> texts);
 
 /// The exposure of the plain PNG file.
 Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view);

@@ -39,7 +39,7 @@ constexpr double shifting_pace = 0.6;
 
 /// Share of the time in which there is flame: on the axis of the base, what is lost up to the top,
 /// and the share of it that is lost out to the rim.
-constexpr double covered_at_base = 0.985, lost_at_top = 0.8, lost_at_rim = 0.8;
+constexpr double covered_at_base = 0.985, lost_at_top = 0.8, lost_at_rim = 0.97;
 /// How steeply a flame brightens behind its edge: as this power of the field's rank.
 constexpr double edge_power = 0.6;
 

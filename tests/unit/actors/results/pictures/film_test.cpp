@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "actors/results/pictures/shared_exposure.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/formats/images/image_file.hpp"
 #include "tests/unit/actors/results/files/display_fixture.hpp"
@@ -149,6 +150,38 @@ TEST_CASE("a frame is the picture of a camera at its place, bit for bit", "[disp
         pixels_of(folder / "views/at_two_metres_human.png"));
 }
 
+TEST_CASE("the frames of a film share one exposure, also across states", "[display]") {
+  const TemporaryFolder folder;
+  const auto run = traced(hall(), 1 << 14);
+  const SceneDescription& scene = *run->scene().description;
+  const auto cameras = cameras_of(scene.routes[0], {1, 1, 1.6}, scene.cameras[0]);
+  REQUIRE(cameras.ok());
+  PictureOptions options;
+  options.paths_per_pixel = 8;
+  SharedExposure shared(folder.path());
+  options.exposed_with = &shared;
+  REQUIRE(render_film(folder / "film", *run, {cameras.value()}, options, {}).value() == 5);
+  CHECK(shared.pictures() == 5);
+  CHECK_FALSE(std::filesystem::exists(folder / "film/000000.png"));
+  const auto exposure = shared.write(2);
+  REQUIRE(exposure.ok());
+  options.exposed_with = nullptr;
+  options.exposure = exposure.value();
+  REQUIRE(render_views(folder.path(), *run, "", options, {}).ok());
+  CHECK(pixels_of(folder / "film/000001.png") == pixels_of(folder / "views/at_two_metres.png"));
+  // Two states of the same light are the same film.
+  options.exposure.reset();
+  options.share_exposure = true;
+  const FilmedStates states{3, [&](size_t) -> Result<std::shared_ptr<const LocalRun>> {
+                              return std::shared_ptr<const LocalRun>(
+                                  std::shared_ptr<const LocalRun>(), run.get());
+                            }};
+  REQUIRE(render_film(folder / "states", states, {cameras.value()}, options, {}).value() == 5);
+  for (size_t k = 0; k < 5; ++k)
+    CHECK(pixels_of(folder / "states" / name_of_frame(k)) ==
+          pixels_of(folder / "film" / name_of_frame(k)));
+}
+
 TEST_CASE("an interrupted film keeps whole frames, and none of an earlier one", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(hall(), 1 << 13);
@@ -161,6 +194,7 @@ TEST_CASE("an interrupted film keeps whole frames, and none of an earlier one", 
   options.interrupt = &interrupt;
   REQUIRE(render_film(folder.path(), *run, {cameras.value()}, options, {}).value() == 5);
   std::ofstream(folder / "notes.txt") << "not a frame";
+  options.share_exposure = GENERATE(false, true);
   const auto made = render_film(folder.path(), *run, {cameras.value()}, options,
                                 [&](double frames) { interrupt = frames > 2.1; });
   REQUIRE(made.ok());

