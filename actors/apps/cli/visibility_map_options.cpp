@@ -121,7 +121,7 @@ void add_map_options(Command& command, MapWords& words) {
        {.range = Range{1, limits::sight_rounds}, .group = map_group, .needs = map_flag}},
       {"--evac-config",
        &words.evac.config,
-       "config.json of pyFDS-Evac, whose signs visibility.npz then has",
+       "Signs for visibility.npz: a config.json of pyFDS-Evac",
        {.form = Form::file, .group = map_group, .needs = map_flag}},
       {"--evac-fds-dir",
        &words.evac.fds_folder,
