@@ -211,15 +211,21 @@ function framed(kind, generation, group, halves) {
 export function lightFrame(generation, group, state) {
   const mesh = meshOf(state);
   const triangles = mesh.kinds.length;
-  const halves = new Uint16Array(6 * triangles);
+  const halves = new Uint16Array(6 * triangles + 3);
+  const white = [0, 0, 0];
+  let reached = 0;
   for (let t = 0; t < triangles; ++t) {
     const { centre, normal, albedo } = triangleAt(t, mesh);
     [1, -1].forEach((side, s) => {
       const n = normal.map((x) => side * x);
       const e = lit(state.sources[group], state, plus(centre, n, 0.01), n);
       e.forEach((x, c) => (halves[6 * t + 3 * s + c] = toHalf((x * albedo[c]) / Math.PI)));
+      if (!e.some((x) => x > 0)) return;
+      reached += 1;
+      e.forEach((x, c) => (white[c] += x / Math.PI));
     });
   }
+  white.forEach((x, c) => (halves[6 * triangles + c] = toHalf(reached ? x / reached : 0)));
   return framed(2, generation, group, halves);
 }
 

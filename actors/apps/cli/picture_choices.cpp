@@ -60,8 +60,9 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
       {"--exposure",
        &choices.exposure,
        "Exposure of NAME.png: its own (each); one for all pictures of the call, which can then be "
-       "compared (shared); or luminances of middle grey, of white, and of the brightest sign, 0 "
-       "for none [cd/m2], e.g. 0.84,12,75, as the text \"Exposure\" of a PNG file says them",
+       "compared (shared); or luminances of middle grey, of white, and of the brightest sign or "
+       "steady flame, 0 for none [cd/m2], e.g. 0.84,12,75, as the text \"Exposure\" of a PNG file "
+       "says them",
        {.otherwise = "each; for films shared"}},
       {"--white",
        &choices.white,

@@ -24,6 +24,8 @@ enum class FrameKind : uint32_t { geometry = 1, light = 2, smoke = 3, smoke_ligh
 
 /// Front and back, r g b each, as half floats.
 constexpr size_t triangle_light_bytes = 2 * 3 * sizeof(uint16_t);
+/// A white surface in the light, behind that of triangles: three halves.
+constexpr size_t white_light_bytes = 3 * sizeof(uint16_t);
 constexpr double pi = std::numbers::pi;
 /// The largest half float: brighter patches are shown as bright as this [cd/m2].
 constexpr float max_half = 65504;
@@ -124,7 +126,30 @@ void put_colour(Writer& out, const Colour& rgb) {
   for (const double channel : rgb) out.half(channel);
 }
 
-/// Luminance of both sides of each triangle.
+/// A white surface in the light that a group casts on the scene's surfaces: the mean over their
+/// area on the sides that it reaches, as linear sRGB. Eyes among them take it as white.
+Colour light_on_surfaces(const Readout& readout, const CompiledScene& scene,
+                         const std::vector<LivePatch>& patches, int group) {
+  Colour lumens{};
+  double area_m2 = 0;
+  for (const LivePatch& patch : patches)
+    for (const uint32_t bin : {patch.front, patch.back}) {
+      bool reached = false;
+      for (int b = 0; b < scene.bands.count(); ++b) {
+        const double watts = readout.watts(scene.blocks.patches, bin, b, 0, group).value;
+        reached |= watts > 0;
+        lumens[0] += watts * scene.bands[b].x_per_w;
+        lumens[1] += watts * scene.bands[b].lm_per_w;
+        lumens[2] += watts * scene.bands[b].z_per_w;
+      }
+      if (reached) area_m2 += patch.area_m2;
+    }
+  if (!(area_m2 > 0)) return {};
+  for (double& v : lumens) v /= pi * area_m2;
+  return linear_srgb_from_xyz(lumens);
+}
+
+/// Luminance of both sides of each triangle; then the light on them.
 LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
                         const std::vector<LivePatch>& patches, uint32_t generation, int group) {
   Writer out(FrameKind::light, generation, static_cast<uint32_t>(group));
@@ -135,6 +160,7 @@ LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
     const double per_watt = 1 / (pi * patch.area_m2);
     for (const uint32_t bin : {patch.front, patch.back}) put_colour(out, colours.of(bin, per_watt));
   }
+  put_colour(out, light_on_surfaces(readout, scene, patches, group));
   return out.take();
 }
 
@@ -327,11 +353,13 @@ std::shared_ptr<const std::vector<uint32_t>> triangles_from(const std::vector<Li
 LiveFrame relaid(const LiveFrame& light, const std::vector<uint32_t>& triangles_before) {
   std::string out = light->substr(0, sizeof(FrameHead));
   out.resize(sizeof(FrameHead) + triangles_before.size() * triangle_light_bytes);
+  const size_t end = light->size() - std::min(white_light_bytes, light->size());
   for (size_t i = 0; i < triangles_before.size(); ++i)
     if (const size_t from = sizeof(FrameHead) + triangles_before[i] * triangle_light_bytes;
-        triangles_before[i] != none_index && from + triangle_light_bytes <= light->size())
+        triangles_before[i] != none_index && from + triangle_light_bytes <= end)
       std::memcpy(out.data() + sizeof(FrameHead) + i * triangle_light_bytes, light->data() + from,
                   triangle_light_bytes);
+  out.append(*light, end);
   return std::make_shared<const std::string>(std::move(out));
 }
 

@@ -188,6 +188,7 @@ Result<void> ViewPictures::render(const Order& order) {
   const Camera camera = camera_of(order.ask);
   PictureOptions options;
   options.interrupt = &interrupt_;
+  options.white = PictureWhite::adapted;  // as the page
   options.gives_up = [&] { return reporter.seconds() > limits_.seconds; };
   ViewPasses passes(run, camera, 0, traced.value()->flux.get(), traced.value()->sight);
   if (!passes.add_first(min_pass, options)) return unfinished();

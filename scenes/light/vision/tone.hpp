@@ -56,7 +56,7 @@ struct Exposure {
 
   double grey_cd_m2 = middle_grey;
   double white_cd_m2 = 1;
-  double sign_cd_m2 = 0;  // brightest face of a sign; 0: none
+  double sign_cd_m2 = 0;  // brightest face of a sign, or steady flame; 0: none
 
   CameraCurve curve() const {
     return camera_curve(middle_grey / grey_cd_m2, white_cd_m2, sign_cd_m2);
@@ -71,7 +71,7 @@ struct LightMeter {
   double log_luminance = 0;    // summed over them
   double brightest_shown = 0;  // the same
   double white_cd_m2 = 0;      // one pixel in a thousand of a picture exceeds it
-  double sign_cd_m2 = 0;       // brightest face of a sign
+  double sign_cd_m2 = 0;       // brightest face of a sign, or steady flame
 
   void add(const LightMeter& other);
   Exposure exposure() const;

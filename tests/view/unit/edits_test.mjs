@@ -10,6 +10,7 @@ function display() {
     smoke: { shine: () => {}, flames: { shine: () => {} } },
     signs: { shine: () => {} },
     lamps: { shine: () => {} },
+    setWhite: () => {},
     again: () => {},
   };
   const live = { scene: null, shown: null, settle: () => ++told.settled, setFactor: () => {} };

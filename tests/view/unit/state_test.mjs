@@ -147,6 +147,17 @@ test('a slider sends its last value, and no more messages than the program accep
   assert.ok(1000 / intervalMs < 50);
 });
 
+test('white is the light of all groups but flames, as dimmed', () => {
+  const { live } = started();
+  const whites = sources.map((_, group) => live.shown.surfaces.groups.get(group).white);
+  const sum = (weight) => [0, 1, 2].map((c) => whites.reduce((total, white, i) =>
+    total + (live.scene.groups[i].kind === 'flame' ? 0 : weight(i) * white[c]), 0));
+  assert.ok(whites.some((white, i) => white[1] > 0 && live.scene.groups[i].kind !== 'flame'));
+  assert.deepEqual(live.white, sum(() => 1));
+  live.setFactor(live.scene.groups[0].name, 0.25);
+  assert.deepEqual(live.white, sum((i) => (i === 0 ? 0.25 : 1)));
+});
+
 test('a moved thing waits only for its own light, and nothing fades', () => {
   const { live, scene, named } = started();
   const others = live.shown.surfaces.groups.get(1).halves;

@@ -164,7 +164,7 @@ export class Live {
     const oldNames = old?.scene.groups.map((g) => g.name) ?? [];
     next.scene.groups.forEach((group, i) => {
       const entry = kept?.groups.get(oldNames.indexOf(group.name));
-      if (entry) light.set(i, entry.halves, weightOf(group));
+      if (entry) light.set(i, entry.halves, weightOf(group), entry.white);
     });
     return light;
   }
@@ -182,9 +182,19 @@ export class Live {
     }
   }
 
-  put({ kind, group, halves }) {
+  put({ kind, group, halves, white }) {
     const light = kind === kinds.surfaceLight ? this.shown.surfaces : this.shown.air;
-    light?.set(group, halves, weightOf(this.shown.scene.groups[group]));
+    light?.set(group, halves, weightOf(this.shown.scene.groups[group]), white);
+  }
+
+  /** A white surface in the light of all groups but flames, as linear sRGB [cd/m2]. */
+  get white() {
+    const sum = [0, 0, 0];
+    this.shown?.scene.groups.forEach((group, i) => {
+      const own = group.kind === 'flame' ? null : this.shown.surfaces?.groups.get(i)?.white;
+      own?.forEach((value, c) => (sum[c] += weightOf(group) * value));
+    });
+    return sum;
   }
 
   factors(all) {

@@ -136,6 +136,31 @@ TEST_CASE("a flame has its shape and its light, and voxels do not repeat its glo
   CHECK(lumens_in(evenly[1], scene.voxels) == Approx(lumens).epsilon(0.01));
 }
 
+TEST_CASE("the light on surfaces ends with a white surface in it", "[view]") {
+  const LiveRoom room(haze);
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  const CompiledScene& scene = run.scene();
+  trace_some(run, 16);
+  const auto geometry = geometry_of(scene, 1);
+  REQUIRE(geometry.ok());
+  const auto frames =
+      light_frames(run, geometry->patches, smoke_of(scene, run.index(), 1), 1, {left});
+  const std::vector<double> halves = halves_of(frames[0]);
+  REQUIRE(halves.size() == 6 * geometry->patches.size() + 3);
+  const Readout readout(scene, run.shown(left));
+  double lumens = 0, area_m2 = 0;
+  for (const LivePatch& patch : geometry->patches)
+    for (const uint32_t bin : {patch.front, patch.back}) {
+      const double arrives = readout.lumens(scene.blocks.patches, bin, 0, left).value;
+      lumens += arrives;
+      if (arrives > 0) area_m2 += patch.area_m2;
+    }
+  REQUIRE(lumens > 0);
+  double luminance = 0;
+  for (size_t c = 0; c < 3; ++c) luminance += of_channel[c] * halves[halves.size() - 3 + c];
+  CHECK(luminance == Approx(lumens / (std::numbers::pi * area_m2)).epsilon(0.01));
+}
+
 TEST_CASE("smoke has the extinction and the mean cosine of its media", "[view]") {
   const LiveRoom room(haze);
   const LiveRun run(room.compiled({}), 1, 1, nullptr, false);

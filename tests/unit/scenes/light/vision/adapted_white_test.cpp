@@ -54,6 +54,15 @@ TEST_CASE("at one luminance the redder light keeps more of its colour", "[vision
   }
 }
 
+TEST_CASE("the live view's white is that of pictures", "[vision]") {
+  // The same numbers stand in tests/view/unit/white_test.mjs.
+  const Xyz light = xyz_from_linear_srgb({130, 98, 50});
+  const auto shown = linear_srgb_from_xyz(AdaptedWhite(light, 200).on_monitor(light));
+  CHECK(shown[0] == Approx(108.457).margin(0.05));
+  CHECK(shown[1] == Approx(101.088).margin(0.05));
+  CHECK(shown[2] == Approx(82.885).margin(0.05));
+}
+
 TEST_CASE("an adapted colour keeps its luminance", "[vision]") {
   const Xyz shown = AdaptedWhite(at_luminance(incandescent, 30), 200).on_monitor({4, 7, 2});
   CHECK(shown[1] == Approx(7));

@@ -2,6 +2,7 @@
 import { scaleHigh, scaleLow } from '../light/colour_map.js';
 import { luminanceWeights } from '../light/colours.js';
 import { toneTools } from './tone.js';
+import { whiteTools } from './white.js';
 
 const [wr, wg, wb] = luminanceWeights;
 
@@ -278,7 +279,8 @@ const eye = `
 vec3 toXyz(vec3 c) {
   return mat3(0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722, 0.9505) * c;
 }
-vec3 eyeSees(vec3 c) {
+// balanced: the colour as it looks on the monitor.
+vec3 eyeSees(vec3 c, vec3 balanced) {
   vec3 xyz = max(toXyz(c), 1e-9);
   float photopic = xyz.y;
   float scotopic = photopic * clamp(1.33 * (1.0 + (xyz.y + xyz.z) / xyz.x) - 1.68, 0.1, 8.0);
@@ -290,11 +292,11 @@ vec3 eyeSees(vec3 c) {
     m = clamp(0.767 + 0.3334 * log(max(seen, 1e-6)) / log(10.0), 0.0, 1.0);
   }
   vec3 grey = vec3(0.94, 0.99, 1.14);
-  return mix(grey / luminance(grey), c / photopic, m) * seen;
+  return mix(grey / luminance(grey), balanced / photopic, m) * seen;
 }
 `;
 
-export const toneFragment = `${common}${eye}${toneTools}
+export const toneFragment = `${common}${eye}${toneTools}${whiteTools}
 in vec2 at;
 uniform sampler2D picture, scaleColours;
 uniform int mode;
@@ -317,7 +319,8 @@ void main() {
   vec3 shown;
   if (mode == 2) shown = falseColour(luminance(c));
   else {
-    if (mode == 1) c = eyeSees(c);
+    vec3 balanced = onMonitor(c);
+    c = mode == 1 ? eyeSees(c, balanced) : balanced;
     shown = encode(displayColour(c, shownOf(luminance(c) * scale)));
   }
   shown = mix(shown, vec3(0.35 * dot(shown, vec3(0.3, 0.6, 0.1)) + 0.06), 0.75 * fade);

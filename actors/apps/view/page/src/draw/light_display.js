@@ -67,6 +67,7 @@ export class LightDisplay {
     picture.smoke.shine(live.shown?.air ?? null);
     for (const shining of [picture.signs, picture.lamps, picture.smoke.flames])
       shining.shine((name) => weights.get(name) ?? 1);
+    picture.setWhite(live.white);
     picture.again();
   }
 }

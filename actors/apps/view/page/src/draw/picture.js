@@ -12,6 +12,7 @@ import { Signs } from './signs.js';
 import { Smoke, smokePaces } from './smoke.js';
 import { Surfaces } from './surfaces.js';
 import { curveUniform } from './tone.js';
+import { adaptedWhite } from './white.js';
 
 /** This many pictures are accumulated before the page rests; fewer on a slow machine. */
 const pictures = { least: 6, most: 24, seconds: 4 };
@@ -120,6 +121,7 @@ export class Picture {
       mode: { value: 0 },
       scale: { value: 1 },
       curve: { value: new THREE.Vector4() },
+      white: { value: new THREE.Matrix3() },
       fade: { value: 0 },
       seed: { value: 0 },
     });
@@ -156,6 +158,12 @@ export class Picture {
     [this.width, this.height] = renderer.getDrawingBufferSize(new THREE.Vector2()).toArray();
     for (const t of [targets.surfaces, ...targets.sums]) t.setSize(this.width, this.height);
     this.again();
+  }
+
+  /** `light`: a white surface in the light on surfaces, linear sRGB [cd/m2]. */
+  setWhite(light) {
+    this.tone.uniforms.white.value.fromArray(adaptedWhite(light));
+    this.untoned = true;
   }
 
   /** The accumulated pictures show another light or place. */

@@ -14,9 +14,10 @@ export class LightSum {
     this.stained(false);
   }
 
-  set(group, halves, factor) {
+  /** `white`: a white surface in the group's light; null in smoke. */
+  set(group, halves, factor, white = null) {
     const old = this.groups.get(group);
-    this.groups.set(group, { halves, factor });
+    this.groups.set(group, { halves, factor, white });
     if (old) this.exchange(old, halves, factor);
     else this.add(halves, factor);
     this.afresh = null;

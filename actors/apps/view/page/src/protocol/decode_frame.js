@@ -1,10 +1,12 @@
 // Decodes binary frames: a header of 16 bytes, then content by kind. Every length is checked
 // against the counts that announce it before anything is read.
-import { allFinite } from './half.js';
+import { allFinite, halfValues } from './half.js';
 
 export const kinds = { geometry: 1, surfaceLight: 2, smoke: 3, smokeLight: 4 };
 export const headerBytes = 16;
 export const limits = { triangles: 4_000_000, groups: 4096, voxels: 1 << 24 };
+
+const whiteNumbers = 3;
 
 export class ProtocolError extends Error {}
 
@@ -30,6 +32,14 @@ function halvesOf(buffer) {
   return halves;
 }
 
+/** Light on surfaces, and behind it a white surface in it, as numbers. */
+function surfaceLightOf(numbers) {
+  const end = numbers.length - whiteNumbers;
+  demand(end >= 0, `light of ${numbers.length} numbers`);
+  const white = Array.from(numbers.subarray(end), (half) => halfValues[half]);
+  return { halves: numbers.subarray(0, end), white };
+}
+
 /** Checks and decodes a frame; throws ProtocolError. The result refers to the buffer. */
 export function decodeFrame(buffer) {
   demand(buffer.byteLength >= headerBytes, 'a frame without a header');
@@ -38,6 +48,8 @@ export function decodeFrame(buffer) {
     case kinds.geometry:
       return { kind, generation, ...geometryOf(buffer, a) };
     case kinds.surfaceLight:
+      demand(a < limits.groups, `group number ${a}`);
+      return { kind, generation, group: a, ...surfaceLightOf(halvesOf(buffer)) };
     case kinds.smokeLight:
       demand(a < limits.groups, `group number ${a}`);
       return { kind, generation, group: a, halves: halvesOf(buffer) };
