@@ -10,7 +10,8 @@
 // The library reads other files and loads code as a file tells it (external links and storage,
 // virtual data sets, filters). So a process of its own holds the file in memory, loads no plugin,
 // has Zstandard from this program, and refuses a table that is linked, stored elsewhere, virtual,
-// or filtered by anything else.
+// or filtered by anything else. The geometry (wkt_geometry) is not read: it is a text of variable
+// length, for which the library copies as many bytes as a damaged file says.
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <zstd.h>
@@ -91,7 +92,6 @@ struct Hdf5Row {
 struct Hdf5Table {
   double fps = 0;
   int schema = 0;  // of JuPedSim; 0: none is stated
-  std::string wkt;
   std::vector<Hdf5Row> rows;
 };
 
@@ -118,7 +118,6 @@ class Hdf5Reader {
     if (auto ok = check_storage(table); !ok) return ok.problem();
     Hdf5Table out;
     if (auto ok = read_rate(file, table, out); !ok) return ok.problem();
-    if (auto ok = read_geometry(file, out); !ok) return ok.problem();
     if (auto ok = read_rows(table, out); !ok) return ok.problem();
     return out;
   }
@@ -192,32 +191,6 @@ class Hdf5Reader {
       return bad(
           "no rate of frames is stated: neither the attribute \"fps\" of \"/trajectory\", "
           "nor \"dt\" and \"every_nth_frame\" of the file");
-    return {};
-  }
-
-  Result<void> read_geometry(hid_t file, Hdf5Table& out) const {
-    if (H5Aexists(file, "wkt_geometry") <= 0) return {};
-    const Handle attribute(H5Aopen(file, "wkt_geometry", H5P_DEFAULT), H5Aclose);
-    const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
-    if (!attribute.ok() || H5Tget_class(type) != H5T_STRING ||
-        H5Sget_simple_extent_npoints(space) != 1)
-      return bad("the attribute \"wkt_geometry\" is no text");
-    const Handle memory(H5Tcopy(type), H5Tclose);
-    if (H5Tis_variable_str(type) > 0) {
-      char* text = nullptr;
-      if (H5Aread(attribute, memory, &text) < 0 || text == nullptr)
-        return bad("the attribute \"wkt_geometry\" cannot be read");
-      out.wkt.assign(text, strnlen(text, limits::trajectory_wkt_bytes));
-      H5Dvlen_reclaim(memory, space, H5P_DEFAULT, &text);
-      return {};
-    }
-    const size_t bytes = H5Tget_size(type);
-    if (bytes == 0 || bytes > limits::trajectory_wkt_bytes)
-      return bad("the attribute \"wkt_geometry\" is too long");
-    out.wkt.resize(bytes);
-    if (H5Aread(attribute, memory, out.wkt.data()) < 0)
-      return bad("the attribute \"wkt_geometry\" cannot be read");
-    out.wkt.resize(strnlen(out.wkt.data(), bytes));
     return {};
   }
 
@@ -297,7 +270,6 @@ void hdf5_answer(PlainReader& question, PlainWriter& out) {
   if (!table) return out.put(table.problem());
   out.put(table->fps);
   out.put(static_cast<int32_t>(table->schema));
-  out.put(table->wkt);
   out.put(table->rows);
 }
 
@@ -323,8 +295,8 @@ Result<Trajectories> hdf5_trajectories(const std::string& file) {
   }
   Hdf5Table table;
   int32_t schema = 0;
-  if (!answer->get(table.fps) || !answer->get(schema) || !answer->get(table.wkt) ||
-      !answer->get(table.rows) || table.rows.size() > limits::trajectory_rows)
+  if (!answer->get(table.fps) || !answer->get(schema) || !answer->get(table.rows) ||
+      table.rows.size() > limits::trajectory_rows)
     return unread();
   const auto fps = checked_fps(table.fps, file);
   if (!fps) return fps.problem();
@@ -341,7 +313,7 @@ Result<Trajectories> hdf5_trajectories(const std::string& file) {
   return rows.people_of({.form = has_heights ? "HDF5 of JuPedSim, schema 2" : "HDF5 with fps",
                          .has_heights = has_heights,
                          .fps = fps.value(),
-                         .walkable_wkt = std::move(table.wkt),
+                         .walkable_wkt = "",
                          .people = {}});
 }
 

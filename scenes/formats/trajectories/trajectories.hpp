@@ -45,7 +45,7 @@ struct Trajectories {
   std::string form;                // "SQLite of JuPedSim, version 2"
   bool has_heights = false;        // z is the height of the floor under the person
   std::optional<double> fps;       // frames per second; none where the file states times
-  std::string walkable_wkt;        // walkable area in well-known text; "" where not given
+  std::string walkable_wkt;        // of SQLite, in well-known text; "" where not given
   std::vector<Trajectory> people;  // by ascending id, at least one
 };
 
