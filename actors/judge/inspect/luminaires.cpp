@@ -159,9 +159,9 @@ bool people_walk_near(const SceneDescription& scene, const glm::dvec3& place, do
   });
 }
 
-/// Light on a roof that looks to the sky is meant to be there.
+/// Light on a roof that looks to the sky is meant to be there. Emitters look along -z of their axes.
 bool looks_up(const Emitter& e) {
-  return e.distribution != Distribution::isotropic && e.frame.axes[2].z > 0.5;
+  return e.distribution != Distribution::isotropic && e.frame.axes[2].z < -0.5;
 }
 
 /// The ceiling above which a place outside is: the object below it, where there is a room under

@@ -77,7 +77,7 @@ material = "grey50"
 }
 
 TEST_CASE("a lamp above the ceiling is an error", "[inspect]") {
-  const char* above = "is above the ceiling: \"room\"";
+  const char* above = "is above the ceiling: \"room.ceiling\"";
   check_found(found_in(furnished_room + panel("[3, 0, 3.05]")), Severity::error, above);
   check_found(found_in(furnished_room + lamp_at("lost", "[3, 0, 3.6]")), Severity::error, above);
   const std::string roof_slab = box("[0, -2, 3]", "[12, 2, 3.4]");

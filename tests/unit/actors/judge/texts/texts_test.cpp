@@ -92,7 +92,7 @@ TEST_CASE("subjects and clauses have texts in each language", "[texts]") {
   CHECK(en.subject({SubjectKind::route, "corridor"}) == "route \"corridor\"");
   CHECK(de.subject({SubjectKind::all_signs}) == "alle Zeichen");
   CHECK(de.subject({SubjectKind::emphasis, "lobby", EmphasisKind::first_aid}) ==
-        "\"lobby\" (Erste Hilfe)");
+        "„lobby“ (Erste Hilfe)");
   Rule rule;
   rule.clause = "4.1.2";
   CHECK(de.clause(rule) == "4.1.2");
