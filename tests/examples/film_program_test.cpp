@@ -137,7 +137,9 @@ TEST_CASE("a film advances the scene's clock, and each state is that of a run at
                                "extinction = [[0, 0], [6, 1.5]]\n";
   const ScenePlace place("room.toml", thickens);
   REQUIRE(place.run("--particles 20k --no-views").code == 0);
-  const std::string stands = " --through 0s=small --through 3s=small --fps 1 --paths 4 ";
+  // Frames of two films are compared, so each frame has an exposure of its own.
+  const std::string stands =
+      " --through 0s=small --through 3s=small --fps 1 --paths 4 --exposure each ";
   const auto film = [&](const fs::path& of, const std::string& clock) {
     return place.luxodus("render " + of.string() + stands + clock, "env PATH=/nowhere ");
   };
