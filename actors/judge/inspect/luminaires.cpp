@@ -159,7 +159,7 @@ bool people_walk_near(const SceneDescription& scene, const glm::dvec3& place, do
   });
 }
 
-/// Light on a roof that looks to the sky is meant to be there. Emitters look along -z of their axes.
+/// Light on a roof that looks to the sky is meant to be there. Emitters look along their -z.
 bool looks_up(const Emitter& e) {
   return e.distribution != Distribution::isotropic && e.frame.axes[2].z < -0.5;
 }
