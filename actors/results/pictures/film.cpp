@@ -12,7 +12,6 @@
 #include "actors/results/pictures/picture_tiles.hpp"
 #include "actors/results/pictures/shared_exposure.hpp"
 #include "actors/results/pictures/view_files.hpp"
-#include "actors/results/run/default_threads.hpp"
 #include "scenes/emergency/way.hpp"
 
 namespace luxodus {
@@ -245,12 +244,10 @@ size_t frames_of_state(double step_s, double seconds_per_frame) {
   return static_cast<size_t>(std::clamp(frames, 1.0, double{limits::max_film_frames}));
 }
 
-namespace {
-
-/// How many frames are there, if it was interrupted or not.
-Result<size_t> render_frames(const fs::path& folder, const FilmedStates& states, const Film& film,
-                             const PictureOptions& options,
-                             const std::function<void(double frames)>& progress) {
+Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, const Film& film,
+                           const PictureOptions& options,
+                           const std::function<void(double frames)>& progress) {
+  if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
   for (size_t first = 0; first < film.cameras.size(); first += states.frames) {
     const auto run = states.run(first / states.frames);
     if (!run) return run.problem();
@@ -265,8 +262,6 @@ Result<size_t> render_frames(const fs::path& folder, const FilmedStates& states,
   return film.cameras.size();
 }
 
-}  // namespace
-
 Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Film& film,
                            const PictureOptions& options,
                            const std::function<void(double frames)>& progress) {
@@ -276,21 +271,6 @@ Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Fi
       folder,
       {std::max<size_t>(1, film.cameras.size()), [&](size_t) -> Result<Run> { return not_owned; }},
       film, options, progress);
-}
-
-Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, const Film& film,
-                           const PictureOptions& options,
-                           const std::function<void(double frames)>& progress) {
-  if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
-  PictureOptions of_call = options;
-  std::optional<SharedExposure> shared;
-  if (options.share_exposure && options.exposed_with == nullptr)
-    of_call.exposed_with = &shared.emplace(folder);
-  const auto made = render_frames(folder, states, film, of_call, progress);
-  if (!made || !shared || shared->pictures() == 0) return made;
-  const auto exposure = shared->write(default_threads());
-  if (!exposure) return exposure.problem();
-  return made;
 }
 
 Result<bool> write_video(const fs::path& file, const fs::path& folder, size_t frames,

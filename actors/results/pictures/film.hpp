@@ -71,8 +71,8 @@ std::string name_of_frame(size_t frame);
 /// Renders the frames into `folder` (made if missing), after removing frames of an earlier film.
 /// Returns how many are there: fewer than cameras if it was interrupted. All frames use the random
 /// numbers of the scene's first camera, so that a frame from that camera is its picture, bit for
-/// bit. `progress`: frames done, including the share of the current one. Frames that share an
-/// exposure are files only at the end, when it is known.
+/// bit. `progress`: frames done, including the share of the current one. Frames that
+/// `options.exposed_with` keeps are files only when the caller writes it.
 /// Errors: as write_png; a folder that cannot be made; those of `states`.
 Result<size_t> render_film(const std::filesystem::path& folder, const LocalRun& run,
                            const Film& film, const PictureOptions& options,

@@ -59,7 +59,7 @@ struct PictureOptions {
   /// paths; otherwise some are allocated where the filter leaves most error (even_paths).
   bool raw = false;
   std::optional<Exposure> exposure;  // of plain pictures; nothing: each has its own, or
-  bool share_exposure = false;       // all of a call have one (shared_exposure.hpp)
+  bool share_exposure = false;       // all of a call of render_views have one
   /// Shares it with the pictures of other calls, and is written by the caller; null: it is not.
   SharedExposure* exposed_with = nullptr;
   PictureWhite white = PictureWhite::lamps;

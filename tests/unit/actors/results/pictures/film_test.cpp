@@ -171,12 +171,14 @@ TEST_CASE("the frames of a film share one exposure, also across states", "[displ
   CHECK(pixels_of(folder / "film/000001.png") == pixels_of(folder / "views/at_two_metres.png"));
   // Two states of the same light are the same film.
   options.exposure.reset();
-  options.share_exposure = true;
+  SharedExposure of_states(folder.path());
+  options.exposed_with = &of_states;
   const FilmedStates states{3, [&](size_t) -> Result<std::shared_ptr<const LocalRun>> {
                               return std::shared_ptr<const LocalRun>(
                                   std::shared_ptr<const LocalRun>(), run.get());
                             }};
   REQUIRE(render_film(folder / "states", states, {cameras.value()}, options, {}).value() == 5);
+  REQUIRE(of_states.write(2).ok());
   for (size_t k = 0; k < 5; ++k)
     CHECK(pixels_of(folder / "states" / name_of_frame(k)) ==
           pixels_of(folder / "film" / name_of_frame(k)));
@@ -194,11 +196,14 @@ TEST_CASE("an interrupted film keeps whole frames, and none of an earlier one", 
   options.interrupt = &interrupt;
   REQUIRE(render_film(folder.path(), *run, {cameras.value()}, options, {}).value() == 5);
   std::ofstream(folder / "notes.txt") << "not a frame";
-  options.share_exposure = GENERATE(false, true);
+  SharedExposure shared(folder.path());
+  const bool shares = GENERATE(false, true);
+  if (shares) options.exposed_with = &shared;
   const auto made = render_film(folder.path(), *run, {cameras.value()}, options,
                                 [&](double frames) { interrupt = frames > 2.1; });
   REQUIRE(made.ok());
   CHECK(made.value() == 2);
+  if (shares) REQUIRE(shared.write(2).ok());
   CHECK(std::filesystem::exists(folder / "000001.png"));
   for (const char* gone : {"000002.png", "000003.png", "000004.png"})
     CHECK_FALSE(std::filesystem::exists(folder / gone));
