@@ -152,6 +152,8 @@ TEST_CASE("a second live view whose workers trace for another one ends, and says
   const std::string first = write_cluster(folder, text, "first");
   const std::string second = write_cluster(folder, text, "second");
   Process up(LUX_PROGRAM, {"cluster", "up", first});
+  // Both: the second view would take a worker that has not come to the first, and wait with it.
+  REQUIRE(up.says("n0 is there"));
   REQUIRE(up.says("n1 is there"));
   const auto intruder = node(second, "controller");
   CHECK(intruder->wait() == 1);
