@@ -152,6 +152,8 @@ class NextEvent {
                        double apparent_sr, const PathBands& bands) {
     const double hit = vertex.pdf * apparent_sr;
     if (!(hit > 0)) return 0;
+    // A medium may scatter on the very face: no sample of the emitter connects over no distance.
+    if (std::isinf(hit)) return 1;
     double sampled =
         weigh_at(vertex.place, vertex.normal, bands) ? choice_.probability_at(emitter) : 0;
     if (vertex.in_medium && weigh_along(vertex.segment, bands))
