@@ -10,8 +10,8 @@
 #include <tuple>
 
 #include "actors/judge/assess/arriving_beside.hpp"
+#include "actors/judge/assess/traced_round.hpp"
 #include "actors/judge/inspect/building.hpp"
-#include "actors/results/run/run_executor.hpp"
 
 namespace luxodus {
 
@@ -20,8 +20,6 @@ namespace {
 /// Smallest number of batches of a round, whose spread gives the error; paths per batch to each
 /// part of a sign, in the first round and at most: beyond that a round has more batches.
 constexpr int64_t min_batches = 64, first_paths = 8, max_paths = 512;
-/// Factor in compile_scene's number of paths: 0.1 of the particles, divided among the parts.
-constexpr double paths_per_particle = 0.1;
 
 /// Size of a round: four times the paths of the one before.
 struct RoundSize {
@@ -159,11 +157,7 @@ RoundState SightsInLights::round_state(int round, const std::vector<size_t>& vie
     }
     out.observers.back().signs->push_back(faced.sign);
   }
-  const auto paths = static_cast<double>(RoundSize(round).paths);
-  const auto parts = static_cast<double>(3 * views.size());
-  // Half a path more, so that rounding down gives this number.
-  out.eye_path_factor = (paths + 0.5) * parts /
-                        (paths_per_particle * static_cast<double>(limits::round_batch_particles));
+  out.eye_path_factor = eye_path_factor(RoundSize(round).paths, views.size());
   return out;
 }
 
@@ -356,25 +350,17 @@ Result<void> SightsInLights::trace(int round, const std::vector<bool>& asked,
   for (const size_t view : views)
     if (observing_.empty() || observing_.back() != faced_[view].stand)
       observing_.push_back(faced_[view].stand);
-  const RoundState state = round_state(round, views);
-  auto compiled = compile_round(judged_, state);
-  if (!compiled) return compiled.problem();
-  const uint64_t seed = options_.seed + static_cast<uint64_t>(round);
-  LocalRun run(compiled.value(), seed, options_.threads);
-  StopRule stop;
-  stop.particles = RoundSize(round).batches * limits::round_batch_particles;
-  RunThreads threads;
-  RunExecutor& executor = options_.executor == nullptr ? threads : *options_.executor;
-  executor.enter({seed, round_text(state)});
-  const auto reason = executor.run(run, stop, interrupt, [&](const Progress& p) {
-    progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
-  });
-  if (!reason) return reason.problem();
-  if (reason.value() == StopReason::interrupted) return problem("interrupted");
-  paths_ += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
-            static_cast<int64_t>(3 * run.scene().eye_targets.size());
-  if (auto ok = Readout(run.scene(), run.totals()).check_range(); !ok) return ok;
-  judge(run.scene(), run.totals(), RoundSize(round).all_paths(), views);
+  const RoundRequest request{round_state(round, views),
+                             options_.seed + static_cast<uint64_t>(round),
+                             RoundSize(round).batches};
+  const auto run = trace_round(judged_, request, options_, interrupt,
+                               [&](double share) { progress(what, share); });
+  if (!run) return run.problem();
+  const CompiledScene& scene = run.value()->scene();
+  const Totals& totals = run.value()->totals();
+  paths_ += eye_paths_of(*run.value());
+  if (auto ok = Readout(scene, totals).check_range(); !ok) return ok;
+  judge(scene, totals, RoundSize(round).all_paths(), views);
   progress(what, 1);
   return {};
 }
