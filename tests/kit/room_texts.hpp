@@ -37,6 +37,27 @@ emergency_flux_is = "initial"
 end_of_duration_factor = 0.75
 )";
 
+/// How people are judged on a route in a room, after the mains have failed. `path` in the scene
+/// file's syntax; `more`: further keys of the scenario.
+inline std::string judged_way(const std::string& path, const std::string& width,
+                              const std::string& more = "") {
+  return R"(
+[assessment]
+irritant_smoke = false
+spacing_m = 4
+eye_heights_m = [1.65]
+
+[[route]]
+name = "way"
+path = )" +
+         path + "\nwidth = " + width + R"(
+
+[[scenario]]
+name = "failed"
+operation = "emergency"
+)" + more;
+}
+
 /// A sign on an east wall that faces west. `position` in the scene file's syntax.
 inline std::string exit_sign_at(const std::string& position) {
   return "\n[[sign]]\nname = \"exit\"\nposition = " + position + R"(

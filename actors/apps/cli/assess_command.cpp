@@ -137,12 +137,31 @@ Result<ThresholdRows> thresholds_of(const AssessmentJob& job, const Assessment& 
       {*job.scene, scenario.value(), assessed, job.options, interrupt_flag(), told}, job.find);
 }
 
+/// The given options that a map has no use for: "--strict, --rules"; "" if there is none.
+std::string of_assessments_alone(const AssessCommandOptions& options) {
+  const ReportWords usual;
+  const std::pair<bool, const char*> given[] = {
+      {options.codes_alone, "--codes-alone"},
+      {!options.find.empty(), "--find"},
+      {!options.assess.smoke_factors.empty(), "--smoke-scale"},
+      {!options.assess.rules.empty(), "--rules"},
+      {!options.assess.deviations.empty(), "--deviation"},
+      {options.strict, "--strict"},
+      {options.no_pictures, "--no-pictures"},
+      {options.report.language != usual.language, "--language"},
+      {options.report.paper != usual.paper, "--paper"},
+      {options.report.grid_values, "--grid-values"},
+      {options.report.pdf, "--pdf"}};
+  std::string out;
+  for (const auto& [is_given, name] : given)
+    if (is_given) out += (out.empty() ? "" : ", ") + std::string(name);
+  return out;
+}
+
 /// Errors: options of an assessment that a map has not; as map_into.
 Result<ExitCode> map_scene(const AssessCommandOptions& options, const AssessedStates& states) {
-  if (options.codes_alone || !options.find.empty() || !options.assess.smoke_factors.empty())
-    return problem(
-        "--visibility-map is made instead of the assessment: take --codes-alone, --find and "
-        "--smoke-scale away");
+  if (const std::string others = of_assessments_alone(options); !others.empty())
+    return problem("--visibility-map is made instead of the assessment: take " + others + " away");
   AssessOptions asked = options.assess;
   asked.place_unknown = options.place == "unknown";
   const auto nodes = nodes_that_trace(options.nodes);
@@ -150,11 +169,13 @@ Result<ExitCode> map_scene(const AssessCommandOptions& options, const AssessedSt
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / file_name_of(states.last->name + "-map")
                               : fs::path(options.out);
+  MapWords words = options.map;
+  words.overwrite = options.overwrite;
   install_interrupt_handler();
   return map_into(folder,
                   {states.last, states.times,
                    reader_at_times(*states.last, options.scene, FireFrames::nearest)},
-                  asked, options.map);
+                  asked, words);
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
@@ -222,6 +243,30 @@ AssessedStates assessed_states(const std::string& file, std::vector<double> time
   return out;
 }
 
+Option scenario_option(AssessOptions& options) {
+  return {"--scenario",
+          &options.scenario,
+          "State of the building",
+          {.form = Form::name,
+           .otherwise = "the scenario in emergency operation, with smoke where any has it; none is "
+                        "guessed"}};
+}
+
+Option rounds_option(AssessOptions& options) {
+  return {"--rounds",
+          &options.rounds,
+          "Largest number of rounds of paths, each of four times as many, for what is undecided",
+          {.range = Range{1, limits::sight_rounds}}};
+}
+
+Option place_option(std::string& place) {
+  return {"--place",
+          &place,
+          "Whether people know where the signs are; a sign of unknown place is seen at 5 times the "
+          "contrast",
+          {.choices = {"known", "unknown"}}};
+}
+
 Result<ExitCode> assess_into(const AssessmentJob& job) {
   const OutputPlan plan{
       {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "guided.csv",
@@ -281,12 +326,7 @@ Command assess_command() {
       .heading = "Assess",
       .options =
           {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
-           {"--scenario",
-            &o->assess.scenario,
-            "State of the building",
-            {.form = Form::name,
-             .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
-                          "is guessed"}},
+           scenario_option(o->assess),
            times_option(o->at),
            {"--out",
             &o->out,
@@ -301,15 +341,9 @@ Command assess_command() {
             "National deviations from the rule sets: " + ids_of(deviations()),
             {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
            {"--seed", &o->assess.seed, "Seed of the random number generator"},
-           {"--threads",
-            &o->assess.threads,
-            "Number of threads",
-            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           threads_option(o->assess.threads),
            nodes_option(o->nodes),
-           {"--rounds",
-            &o->assess.rounds,
-            "Largest number of rounds of paths, each of four times as many, for what is undecided",
-            {.range = Range{1, limits::sight_rounds}}},
+           rounds_option(o->assess),
            {"--smoke-scale",
             &o->assess.smoke_factors,
             "Factors of a sweep: signs are assessed again with all smoke times each of them",
@@ -318,12 +352,7 @@ Command assess_command() {
             &o->find,
             "Thresholds at which each sign is just read and just seen, from each place",
             {.choices = {sought_words.begin(), sought_words.end()}, .comma_separated = true}},
-           {"--place",
-            &o->place,
-            "Whether people know where the signs are; a sign of unknown place is seen at 5 times "
-            "the "
-            "contrast",
-            {.choices = {"known", "unknown"}}},
+           place_option(o->place),
            {"--codes-alone", &o->codes_alone,
             "Assessment by the codes only: no smoke, no "
             "reflections"},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/options.hpp"
 #include "actors/apps/cli/report_options.hpp"
 #include "actors/judge/assess/assessment.hpp"
 #include "runtime/core/result.hpp"
@@ -22,6 +23,12 @@ struct AssessedStates {
 
 /// Without times those that the scene says.
 AssessedStates assessed_states(const std::string& file, std::vector<double> times);
+
+// Options of commands that assess. Requires: what each is given outlives it.
+Option scenario_option(AssessOptions& options);
+Option rounds_option(AssessOptions& options);
+/// --place: "known" or "unknown".
+Option place_option(std::string& place);
 
 struct AssessmentJob {
   std::shared_ptr<const SceneDescription> scene;  // with several states, the last

@@ -4,6 +4,13 @@
 
 namespace luxodus::cli {
 
+Option threads_option(int& threads) {
+  return {"--threads",
+          &threads,
+          "Number of threads",
+          {.otherwise = "all cores", .range = Range{1, 1024}}};
+}
+
 Option nodes_option(int& nodes) {
   return {"--nodes",
           &nodes,

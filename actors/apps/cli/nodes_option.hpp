@@ -1,4 +1,4 @@
-// The option --nodes, for commands that only need nodes to trace. One thread.
+// The options --threads and --nodes, for commands that only need these to trace. One thread.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace luxodus::cli {
 
-/// Requires: `nodes` outlives it.
+/// Requires: the number outlives the option.
+Option threads_option(int& threads);
 Option nodes_option(int& nodes);
 
 /// Nodes that trace pictures of a finished run.

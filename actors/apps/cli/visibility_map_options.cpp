@@ -51,6 +51,23 @@ Result<std::vector<const Sign*>> map_signs_of(const SceneDescription& scene,
   return out;
 }
 
+/// Errors: the folder holds a file of a map and not all that a map writes: others have written it.
+Result<void> refuse_files_of_others(const std::filesystem::path& folder) {
+  std::error_code error;
+  size_t there = 0;
+  std::filesystem::path last;
+  for (const char* file : {evac_map_file, whole_map_file, map_table_file, map_states_folder})
+    if (std::filesystem::exists(std::filesystem::symlink_status(folder / file, error))) {
+      ++there;
+      last = folder / file;
+    }
+  constexpr size_t of_a_map = 4;
+  if (there == 0 || there == of_a_map) return {};
+  return problem_in(last,
+                    "this is there and no map has written it: move it away, give another folder, "
+                    "or add --overwrite to replace it");
+}
+
 void print_map(const VisibilityMap& map) {
   std::array<size_t, sign_answers> counts{};
   for (const SignAnswer answer : map.answers) ++counts[static_cast<size_t>(answer)];
@@ -62,6 +79,11 @@ void print_map(const VisibilityMap& map) {
               map.heights_m.size(), map.states(), map.signs.size(), words.c_str());
   std::printf("traced from %zu supports, %lld paths; an answer holds at %.1f standard errors\n",
               map.supports, static_cast<long long>(map.paths), map.sure_errors);
+  if (map.lost_supports > 0)
+    std::printf(
+        "%zu supports found more light than is counted, as places beside a lamp do: little is "
+        "decided near them\n",
+        map.lost_supports);
 }
 
 }  // namespace
@@ -143,13 +165,14 @@ void add_map_options(Command& command, MapWords& words) {
 
 Result<ExitCode> map_into(const std::filesystem::path& folder, const StatesToAssess& states,
                           const AssessOptions& options, const MapWords& words) {
-  const auto request = map_request_of(states, options, words);
+  auto request = map_request_of(states, options, words);
   if (!request) return request.problem();
   const auto signs = map_signs_of(*states.last, words);
   if (!signs) return signs.problem();
   auto evac = words.evac.config.empty() ? Result(evac_signs_of(signs.value()))
                                         : read_evac_signs(words.evac.config, signs.value());
   if (!evac) return evac.problem();
+  request->evac_signs = evac->size();
   const auto scenario = judged_scenario(*states.last, options.scenario);
   if (!scenario) return scenario.problem();
   if (const auto told = refused_by_inspection(states.last, {scenario.value()}, options.threads))
@@ -157,6 +180,8 @@ Result<ExitCode> map_into(const std::filesystem::path& folder, const StatesToAss
   const auto out = OutputFolder::claim(
       folder, {{evac_map_file, whole_map_file, map_table_file}, {map_states_folder}});
   if (!out) return out.problem();
+  if (!words.overwrite)
+    if (auto ok = refuse_files_of_others(out->path()); !ok) return ok.problem();
   ProgressLine line("map");
   const auto map =
       make_map(request.value(), interrupt_flag(), [&](const std::string& what, double share) {

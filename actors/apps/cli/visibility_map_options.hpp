@@ -16,6 +16,7 @@ namespace luxodus::cli {
 
 struct MapWords {
   bool wanted = false;
+  bool overwrite = false;  // files that no map has written
   double spacing_m = 0.25;
   std::vector<double> heights_m, facings_deg, box;
   double floor_m = std::numeric_limits<double>::quiet_NaN();  // not given

@@ -27,9 +27,10 @@ glm::dvec2 direction_of(double alpha_deg) {
   return {std::sin(alpha), std::cos(alpha)};
 }
 
-/// Rounded so that equal signs have equal texts.
-double rounded(double value, double step) {
-  return std::round(value / step) * step + 0.0;
+/// The double next to a decimal of so many parts of one: the other program compares numbers
+/// exactly with those that people have written.
+double rounded(double value, double parts) {
+  return std::round(value * parts) / parts + 0.0;
 }
 
 std::optional<size_t> sign_of(const EvacSign& wanted, const std::vector<const Sign*>& signs) {
@@ -143,8 +144,8 @@ std::vector<EvacSign> evac_signs_of(const std::vector<const Sign*>& signs) {
     if (alpha < 0) alpha += 360;
     EvacSign one;
     one.node = signs[s]->name;
-    one.place = {rounded(frame.origin.x, 1e-3), rounded(frame.origin.y, 1e-3)};
-    one.alpha_deg = rounded(alpha, 0.1);
+    one.place = {rounded(frame.origin.x, 1000), rounded(frame.origin.y, 1000)};
+    one.alpha_deg = std::fmod(rounded(alpha, 10), 360);
     one.sign = s;
     one.description = Json::array();
     for (const Json& value : {Json(one.node), Json(one.place.x), Json(one.place.y),

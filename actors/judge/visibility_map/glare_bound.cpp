@@ -6,16 +6,15 @@
 #include <numbers>
 
 #include "scenes/emergency/veil.hpp"
+#include "scenes/light/optics/photometric_web.hpp"
 #include "scenes/light/transport/emitted_light.hpp"
 
 namespace luxodus {
 
 namespace {
 
-/// Angles from the axis and around it at which intensities are taken, and points of the emitter.
-constexpr int polar_steps = 36, around_steps = 24, points_of_emitter = 16;
-/// Between those directions the intensity may be larger.
-constexpr double between_directions = 1.25;
+/// Steps of the angle from the axis.
+constexpr size_t polar_steps = 36;
 /// An emitter is far away if its distance is so many times its radius.
 constexpr double far_radii = 1.5;
 
@@ -26,6 +25,64 @@ double lumens_of(const CompiledScene& scene, const CompiledEmitter& emitter) {
   for (int b = 0; b < scene.bands.count(); ++b)
     lumens += emitter.power_w[static_cast<size_t>(b)] * scene.bands[b].lm_per_w;
   return lumens;
+}
+
+/// Whether all points of an emitter look along one axis.
+bool is_flat(const CompiledEmitter& emitter) {
+  return emitter.kind != EmitterKind::sphere && emitter.kind != EmitterKind::tube &&
+         emitter.kind != EmitterKind::mesh;
+}
+
+/// Largest density [1/sr] of a web by the angle from the luminaire's +Z, in equal steps. Intensity
+/// is bilinear in the cells of the table, so it is nowhere above the largest corner of its cell.
+std::vector<double> densities_of(const PhotometricWeb& web) {
+  const std::vector<double>&azimuth = web.azimuth_deg(), &polar = web.polar_deg();
+  // About the luminaire's axis the angle is that of the table. About others it may lie beyond the
+  // corners, by half of the edges of the cell at most.
+  const bool upright = std::abs(web.to_luminaire()[2].z) > 1 - 1e-9;
+  const auto angle = [&](size_t a, size_t p) {
+    const double theta = glm::radians(polar[p]), phi = glm::radians(azimuth[a]);
+    const glm::dvec3 table(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                           std::cos(theta));
+    return std::acos(std::clamp((web.to_luminaire() * table).z, -1.0, 1.0));
+  };
+  std::vector<double> out(polar_steps, 0.0);
+  for (size_t a = 0; a + 1 < azimuth.size(); ++a)
+    for (size_t p = 0; p + 1 < polar.size(); ++p) {
+      double low = pi, high = 0, most = 0;
+      for (const size_t i : {a, a + 1})
+        for (const size_t j : {p, p + 1}) {
+          low = std::min(low, angle(i, j));
+          high = std::max(high, angle(i, j));
+          most = std::max(most, web.candela()[i * polar.size() + j]);
+        }
+      const double beyond =
+          upright ? 1e-9 : glm::radians(azimuth[a + 1] - azimuth[a] + polar[p + 1] - polar[p]) / 2;
+      const auto step = [](double at) {
+        return static_cast<size_t>(std::clamp(at / pi * polar_steps, 0.0, polar_steps - 1.0));
+      };
+      for (size_t k = step(low - beyond); k <= step(high + beyond); ++k)
+        out[k] = std::max(out[k], most / web.flux_lm());
+    }
+  return out;
+}
+
+/// The same of other emitters, from their axis. Their densities fall with that angle, and points
+/// that look in other directions send at most what their axis has.
+std::vector<double> densities_of(const CompiledScene& scene, const GeometryAccess& access,
+                                 uint32_t emitter, const EmissionPoint& point) {
+  const Vec3 helper = std::abs(point.axis.z) < 0.7_r ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+  const Vec3 across = glm::normalize(glm::cross(helper, point.axis));
+  std::vector<double> out(polar_steps);
+  for (size_t k = 0; k < out.size(); ++k) {
+    const double angle =
+        is_flat(scene.emitters[emitter]) ? pi * static_cast<double>(k) / polar_steps : 0;
+    const Vec3 direction = point.axis * static_cast<Real>(std::cos(angle)) +
+                           across * static_cast<Real>(std::sin(angle));
+    out[k] = static_cast<double>(
+        emitted_density(scene, access, emitter, point, glm::normalize(direction)));
+  }
+  return out;
 }
 
 }  // namespace
@@ -41,22 +98,16 @@ GlareBound::Source GlareBound::source_of(const CompiledScene& scene, const Geome
              none_index,
              {}};
   if (e.sign != none_index) out.sign = scene.signs[e.sign].sign;
-  const auto rays = emitted_rays(scene, access, emitter, 1, points_of_emitter);
-  const double scale = between_directions * lumens_of(scene, e) / points_of_emitter;
-  std::vector<double> at(polar_steps + 1, 0.0);
-  for (int p = 0; p <= polar_steps; ++p)
-    for (int a = 0; a < around_steps; ++a) {
-      const double polar = pi * p / polar_steps, around = 2 * pi * a / around_steps;
-      const glm::dvec3 local(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
-                             std::cos(polar));
-      const Vec3 direction = glm::normalize(e.axes * Vec3(local));
-      double sum = 0;
-      for (const EmittedRay& ray : rays)
-        sum += static_cast<double>(emitted_density(scene, access, emitter, ray.point, direction));
-      auto& most = at[static_cast<size_t>(p)];
-      most = std::max(most, scale * sum);
-    }
-  for (size_t p = 0; p < polar_steps; ++p) out.intensity.push_back(std::max(at[p], at[p + 1]));
+  if (e.distribution == Distribution::web) {
+    out.intensity = with_resolver(scene, access,
+                                  [&](auto resolver) { return densities_of(resolver.web(e.web)); });
+  } else {
+    const EmissionPoint point = emitted_rays(scene, access, emitter, 1, 1).front().point;
+    out.axis = glm::dvec3(point.axis);
+    out.intensity = densities_of(scene, access, emitter, point);
+  }
+  constexpr double rounding = 1 + 1e-5;
+  for (double& one : out.intensity) one *= rounding * lumens_of(scene, e);
   return out;
 }
 
@@ -90,8 +141,7 @@ std::vector<double> GlareBound::at(const glm::dvec3& eye, const glm::dvec3& cent
     if (away >= pi / 2) continue;
     const double polar = std::acos(std::clamp(-glm::dot(to, source.axis) / distance, -1.0, 1.0));
     const auto at = [&](double angle) {
-      const double step = std::clamp(angle / pi * polar_steps, 0.0, polar_steps - 1.0);
-      return static_cast<size_t>(step);
+      return static_cast<size_t>(std::clamp(angle / pi * polar_steps, 0.0, polar_steps - 1.0));
     };
     double intensity = 0;
     for (size_t p = at(polar - half); p <= at(polar + half); ++p)

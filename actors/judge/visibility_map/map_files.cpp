@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "actors/results/formats/csv.hpp"
 #include "actors/results/formats/npz.hpp"
@@ -14,8 +15,9 @@ namespace luxodus {
 namespace {
 
 /// Distance of the times of an interval from its ends, as a share of the shortest interval. The
-/// nearest of all times then changes exactly at the times of the states.
-constexpr double off_ends = 0.25;
+/// nearest of all times then changes exactly at the times of the states. At the first state two
+/// would be equally near, and the earlier one counts: the time before it is a trifle farther away.
+constexpr double off_ends = 0.25, trifle_farther = 1 + 1e-6;
 
 /// Centres of cells, with one more at each end.
 std::vector<double> with_border(size_t count, double spacing_m, const auto& at) {
@@ -38,7 +40,7 @@ std::vector<Between> intervals_of(const VisibilityMap& map) {
   for (size_t i = 0; i + 1 < times.size(); ++i)
     shortest = i == 0 ? times[1] - times[0] : std::min(shortest, times[i + 1] - times[i]);
   const double off = off_ends * shortest;
-  std::vector<Between> out{{times.front() - off, {}}};
+  std::vector<Between> out{{times.front() - off * trifle_farther, {}}};
   if (times.size() == 1) out.push_back({times.front(), {0}});
   for (size_t i = 0; i + 1 < times.size(); ++i) {
     out.push_back({times[i] + off, {i, i + 1}});
@@ -132,27 +134,24 @@ std::string array_name(const std::string& sign, std::set<std::string>& taken) {
   return out;
 }
 
-/// Layers are eye heights, in their order.
-VtkVolume volume_of(const VisibilityMap& map, size_t state) {
+/// Thickness of the only layer of a volume, whose middle is at the eyes [m].
+constexpr double layer_m = 0.1;
+
+/// One layer of cells at an eye height: heights may be unevenly spaced, and layers may not.
+VtkVolume volume_of(const VisibilityMap& map, size_t state, size_t height) {
   VtkVolume out;
   const MapGrid& grid = map.grid;
-  const std::string heights = fmt::format("{:g}", fmt::join(map.heights_m, ", "));
-  out.comment = fmt::format("signs: {}; layers: eye heights {} m", answer_words(), heights);
-  const double first = map.floor_m + map.heights_m.front();
-  const double step = map.heights_m.size() > 1 ? map.heights_m[1] - map.heights_m[0] : 1;
-  const double layer = step > 0 ? step : 1;
-  out.origin = {grid.low.x, grid.low.y, first - layer / 2};
-  out.spacing = {grid.spacing_m, grid.spacing_m, layer};
-  out.cells = {static_cast<int>(grid.columns), static_cast<int>(grid.rows),
-               static_cast<int>(map.heights_m.size())};
+  out.comment =
+      fmt::format("signs: {}; eyes {:g} m above the floor", answer_words(), map.heights_m[height]);
+  out.origin = {grid.low.x, grid.low.y, map.floor_m + map.heights_m[height] - layer_m / 2};
+  out.spacing = {grid.spacing_m, grid.spacing_m, layer_m};
+  out.cells = {static_cast<int>(grid.columns), static_cast<int>(grid.rows), 1};
   std::set<std::string> taken;
   for (size_t s = 0; s < map.signs.size(); ++s) {
     std::vector<int32_t> values;
-    for (size_t height = 0; height < map.heights_m.size(); ++height) {
-      const size_t begin = map.table(height, state, s);
-      for (size_t place = 0; place < grid.places(); ++place)
-        values.push_back(static_cast<int32_t>(map.answers[begin + place]));
-    }
+    const size_t begin = map.table(height, state, s);
+    for (size_t place = 0; place < grid.places(); ++place)
+      values.push_back(static_cast<int32_t>(map.answers[begin + place]));
     out.cell_data.push_back({array_name(map.signs[s], taken), 1, std::move(values)});
   }
   return out;
@@ -197,13 +196,16 @@ Result<void> write_map(const std::filesystem::path& folder, const VisibilityMap&
   if (failed)
     return system_problem(folder / map_states_folder, "cannot make this folder", failed.value());
   for (size_t height = 0; height < map.heights_m.size(); ++height) {
-    const EvacTable table = evac_table(map, height, signs);
+    EvacTable table = evac_table(map, height, signs);
     const std::vector<size_t> shape{table.times_s.size(), signs.size(), table.y_m.size(),
                                     table.x_m.size()};
-    const auto bytes =
-        npz_of({npy_numbers("time_points", table.times_s), npy_numbers("x_coords", table.x_m),
-                npy_numbers("y_coords", table.y_m), npy_truths("vis", shape, table.read),
-                npy_truths("seen", shape, table.seen), npy_text("meta", meta.dump())});
+    std::vector<NpyArray> arrays{npy_numbers("time_points", table.times_s),
+                                 npy_numbers("x_coords", table.x_m),
+                                 npy_numbers("y_coords", table.y_m)};
+    arrays.push_back(npy_truths("vis", shape, std::exchange(table.read, {})));
+    arrays.push_back(npy_truths("seen", shape, std::exchange(table.seen, {})));
+    arrays.push_back(npy_text("meta", meta.dump()));
+    const auto bytes = npz_of(std::move(arrays));
     if (!bytes) return bytes.problem();
     const std::string name = height == 0 ? evac_map_file
                                          : fmt::format("{}/visibility_{:g}m.npz", map_states_folder,
@@ -214,10 +216,12 @@ Result<void> write_map(const std::filesystem::path& folder, const VisibilityMap&
   if (!whole) return whole.problem();
   if (auto ok = write_file_atomically(folder / whole_map_file, whole.value()); !ok) return ok;
   if (auto ok = write_csv(folder / map_table_file, map_csv(map)); !ok) return ok;
-  for (size_t state = 0; state < map.states(); ++state) {
-    const auto file = folder / map_states_folder / fmt::format("state_{:04}.vti", state);
-    if (auto ok = write_vti(file, volume_of(map, state)); !ok) return ok;
-  }
+  for (size_t state = 0; state < map.states(); ++state)
+    for (size_t height = 0; height < map.heights_m.size(); ++height) {
+      const auto file = folder / map_states_folder /
+                        fmt::format("state_{:04}_{:g}m.vti", state, map.heights_m[height]);
+      if (auto ok = write_vti(file, volume_of(map, state, height)); !ok) return ok;
+    }
   return {};
 }
 

@@ -18,7 +18,7 @@ constexpr double off_centre = 0.4;
 constexpr double thin_line = 0.01;
 /// Relative error of a share: of what was not computed, and of each unit of its change over the
 /// part and of the variance of its logarithm.
-constexpr double least_error = 0.005, error_by_change = 0.1, error_by_variance = 0.5;
+constexpr double error_at_least = 0.005, error_by_change = 0.1, error_by_variance = 0.5;
 
 PartOfFace part_of(const CompiledScene& scene, const CompiledSign& compiled, size_t part) {
   const SignFace& face = scene.description->signs[compiled.sign].face;
@@ -113,7 +113,7 @@ std::vector<FaceOfSign> faces_of(const CompiledScene& scene) {
   return out;
 }
 
-std::vector<double> band_chances(const CompiledScene& scene) {
+std::vector<double> luminous_shares(const CompiledScene& scene) {
   std::vector<double> out;
   double total = 0;
   for (int b = 0; b < scene.bands.count(); ++b) {
@@ -122,13 +122,13 @@ std::vector<double> band_chances(const CompiledScene& scene) {
     out.push_back(power * scene.bands[b].lm_per_w);
     total += out.back();
   }
-  for (double& chance : out) chance = total > 0 ? chance / total : 1.0 / scene.bands.count();
+  for (double& share : out) share = total > 0 ? share / total : 1.0 / scene.bands.count();
   return out;
 }
 
 SightLine sight_line(const CompiledScene& scene, const GeometryAccess& access,
-                     const FaceOfSign& face, const std::vector<double>& chances, const Vec3& eye) {
-  const size_t bands = chances.size();
+                     const FaceOfSign& face, const std::vector<double>& shares, const Vec3& eye) {
+  const size_t bands = shares.size();
   std::vector<double> depths(bands, 0.0);
   DepthOverFace over;
   const Vec3 to = face.centre - eye;
@@ -146,7 +146,7 @@ SightLine sight_line(const CompiledScene& scene, const GeometryAccess& access,
             });
   SightLine out;
   out.passed_scene = 0;
-  for (size_t b = 0; b < bands; ++b) out.passed_scene += chances[b] * std::exp(-depths[b]);
+  for (size_t b = 0; b < bands; ++b) out.passed_scene += shares[b] * std::exp(-depths[b]);
   const double cosine = std::max(0.0, static_cast<double>(-glm::dot(face.normal, to) / length));
   const double angular = face.exponent == 0 ? 1 : std::pow(cosine, face.exponent);
   double change = 0, variance = 0;
@@ -158,7 +158,7 @@ SightLine sight_line(const CompiledScene& scene, const GeometryAccess& access,
       const double passed = std::exp(-depths[b]) * mean.factor;
       own += part.luminance[b];
       own_passed += part.luminance[b] * passed;
-      scene_passed += chances[b] * passed;
+      scene_passed += shares[b] * passed;
       change = std::max(change, mean.change);
       variance = std::max(variance, mean.variance);
     }
@@ -166,8 +166,8 @@ SightLine sight_line(const CompiledScene& scene, const GeometryAccess& access,
     out.passed[p] = std::min(1.0, own > 0 ? own_passed / own : scene_passed);
   }
   out.passed_error = middle > thin_line
-                         ? least_error + error_by_change * change + error_by_variance * variance
-                         : least_error;
+                         ? error_at_least + error_by_change * change + error_by_variance * variance
+                         : error_at_least;
   return out;
 }
 

@@ -1,6 +1,7 @@
 // What of a view of a sign needs no paths: the luminance of its own light towards the eye and what
-// the smoke lets pass of it, computed on lines to five points of the face. Pure functions of a
-// compiled scene; called within Building::each, with that call's access.
+// the smoke lets pass of it, computed on lines to five points of the face. (Whether solids hide it
+// is decided on lines of their own, in signs_in_state.cpp.) Pure functions of a compiled scene;
+// called within Building::each, with that call's access.
 #pragma once
 
 #include <array>
@@ -32,8 +33,8 @@ struct FaceOfSign {
 /// All faces of a scene, in the order of CompiledScene::signs.
 std::vector<FaceOfSign> faces_of(const CompiledScene& scene);
 
-/// Chances with which eye paths choose each band.
-std::vector<double> band_chances(const CompiledScene& scene);
+/// Shares of each band in the luminous flux of all sources: the light of the scene.
+std::vector<double> luminous_shares(const CompiledScene& scene);
 
 /// Shares of light are of the media alone: panes are counted elsewhere.
 struct SightLine {
@@ -43,8 +44,9 @@ struct SightLine {
   double passed_error = 0;         // largest relative error of the shares
 };
 
-/// `chances`: as band_chances. Requires: an eye before the face [local].
+/// `shares`: luminous_shares, the light of parts that have none of their own. Requires: an eye
+/// before the face [local].
 SightLine sight_line(const CompiledScene& scene, const GeometryAccess& access,
-                     const FaceOfSign& face, const std::vector<double>& chances, const Vec3& eye);
+                     const FaceOfSign& face, const std::vector<double>& shares, const Vec3& eye);
 
 }  // namespace luxodus

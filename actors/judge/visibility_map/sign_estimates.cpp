@@ -102,6 +102,7 @@ Result<std::unique_ptr<SignEstimates>> SignEstimates::make(const EstimateRequest
   auto ok = for_each_state(request, interrupt, progress,
                            [&](size_t, std::unique_ptr<SignsInState> state) {
                              out->sure_errors_ = std::max(out->sure_errors_, state->sure_errors());
+                             state->forget_estimates();
                              out->states_.push_back(std::move(state));
                            });
   if (!ok) return ok.problem();

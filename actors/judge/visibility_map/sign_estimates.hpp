@@ -20,7 +20,7 @@ namespace luxodus {
 
 namespace limits {
 /// Places of which estimates are asked at one time, and pairs of a place and a sign.
-inline constexpr size_t estimated_eyes = 1'000'000, estimated_pairs = 20'000'000;
+inline constexpr size_t estimated_eyes = 1'000'000, estimated_pairs = 8'000'000;
 }  // namespace limits
 
 /// An eye at a time.

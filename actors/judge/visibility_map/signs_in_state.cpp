@@ -14,14 +14,9 @@ namespace luxodus {
 
 namespace {
 
-/// Points along each edge of a face to which lines are drawn, and the share of the edge between the
-/// outer ones: nearly all, so that a face is whole only if its corners are.
-constexpr int face_points = 3;
+/// Lines are also drawn to points close to the corners and the middles of the edges of a face, this
+/// share of its edges apart: a face is whole only if its corners are.
 constexpr double face_reach = 0.96;
-/// Lines that take less light away have no glow to be divided by [share].
-constexpr double least_taken = 1e-6;
-/// Lines that let less pass say nothing of what is beyond the face [share].
-constexpr double least_passed = 1e-6;
 /// Paths of each batch to each part of a view in the first round; each round has twice as many.
 constexpr int64_t first_paths = 4;
 /// Spacing of supports as a share of the distance to the sign, and its range [m].
@@ -51,25 +46,37 @@ struct FaceSeen {
   double solid = 0;  // at the centre: share of light that panes let pass
 };
 
+/// Hidden and whole are what an assessment says, and whole is asked for at the rim as well.
 FaceSeen seen_of(const Building& building, const GeometryAccess& access, const Sign& sign,
                  const SignView& view, const glm::dvec3& eye) {
   FaceSeen out;
-  int clear = 0;
-  for (int j = 0; j < face_points; ++j)
-    for (int i = 0; i < face_points; ++i) {
-      const glm::dvec2 uv =
-          face_reach * (glm::dvec2(i, j) / static_cast<double>(face_points - 1) - 0.5);
-      const glm::dvec3 place = view.centre + sign.frame.axes[0] * (uv.x * sign.width_m) +
-                               sign.frame.axes[1] * (uv.y * sign.height_m) + view.normal * 1e-3;
-      const double share =
-          clear_share(building.scene(), access, building.local(eye), building.local(place));
+  const auto clear_to = [&](const glm::dvec2& uv) {
+    const glm::dvec3 place = view.centre + sign.frame.axes[0] * (uv.x * sign.width_m) +
+                             sign.frame.axes[1] * (uv.y * sign.height_m) + view.normal * 1e-3;
+    return clear_share(building.scene(), access, building.local(eye), building.local(place));
+  };
+  int clear = 0, points = 0;
+  for (const double v : {-0.5, 0.0, 0.5})
+    for (const double u : {-0.5, 0.0, 0.5}) {
+      const double share = clear_to(face_reach * glm::dvec2(u, v));
+      ++points;
       clear += share > 0 ? 1 : 0;
-      if (i == face_points / 2 && j == face_points / 2) out.solid = share;
+      if (u == 0 && v == 0) out.solid = share;
     }
-  out.seen = clear == 0                           ? Seen::nothing
-             : clear == face_points * face_points ? Seen::whole
-                                                  : Seen::part;
+  const double within = building.seen_share(access, sign, view, eye);
+  out.seen = clear == 0 && within == 0          ? Seen::nothing
+             : clear == points && within == 1.0 ? Seen::whole
+                                                : Seen::part;
   return out;
+}
+
+/// Sums and products whose errors add up: they hold bounds, which may all lie on one side.
+Uncertain plus_bounds(const Uncertain& a, const Uncertain& b) {
+  return {a.value + b.value, a.error + b.error};
+}
+Uncertain product_of_bounds(const Uncertain& a, const Uncertain& b) {
+  return {a.value * b.value,
+          std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error};
 }
 
 bool decides_more(const SignEstimate& a, const SignEstimate& b) {
@@ -108,25 +115,36 @@ Result<void> SignsInState::compile() {
   faces_ = faces_of(scene);
   face_of_.assign(judged_.scene.signs.size(), {no_face, no_face});
   for (uint32_t f = 0; f < faces_.size(); ++f) face_of_[faces_[f].sign][faces_[f].back ? 1 : 0] = f;
-  chances_ = band_chances(scene);
+  shares_ = luminous_shares(scene);
   factors_ = factors_of(scene, judged_.mixtures());
   glare_.emplace(*building_);
-  by_face_.resize(faces_.size());
-  for (Traced& traced : by_face_) {
-    traced.glow.resize(factors_.size());
-    traced.beyond.resize(factors_.size());
-    traced.reflected.resize(factors_.size());
-  }
+  by_face_.assign(faces_.size(), FaceLight(factors_.size()));
   const AssessmentSettings& people = judged_.scene.assessment;
   rules_ = {adapted_eye(people, judged_.scenario, people.age_years),
             people.irritant_smoke.value_or(false), 2, options_.place_unknown};
   return {};
 }
 
+void SignsInState::forget_estimates() {
+  views_ = {};
+  estimates_ = {};
+}
+
 size_t SignsInState::supports() const {
   size_t all = 0;
-  for (const Traced& traced : by_face_) all += traced.supports.size();
+  for (const FaceLight& light : by_face_) all += light.supports().size();
   return all;
+}
+
+size_t SignsInState::lost_supports() const {
+  size_t all = 0;
+  for (const FaceLight& light : by_face_)
+    for (const Support& support : light.supports()) all += is_lost(support) ? 1 : 0;
+  return all;
+}
+
+bool SignsInState::is_lost(const Support& support) const {
+  return traced_.is_face_lost(support.view) || traced_.is_beyond_lost(support.view);
 }
 
 // ---- what is seen from an eye ------------------------------------------------------------------
@@ -147,11 +165,11 @@ void SignsInState::look(const GeometryAccess& access, uint32_t eye_number, const
     estimate.answer = SignAnswer::undecided;
     if (seen.seen == Seen::part || face == no_face || !(view.geometry.detail_arcmin > 0)) continue;
     view.eye = eye_number;
-    view.slot = static_cast<uint16_t>(slot);
-    view.face = static_cast<uint16_t>(face);
+    view.slot = static_cast<uint32_t>(slot);
+    view.face = face;
     view.solid = seen.solid;
     view.line =
-        sight_line(building_->scene(), access, faces_[face], chances_, building_->local(eye));
+        sight_line(building_->scene(), access, faces_[face], shares_, building_->local(eye));
     view.veils_cd_m2 = glare_->at(eye, view.geometry.centre, signs_[slot],
                                   judged_.scene.assessment.age_years, factors_);
     views.push_back(std::move(view));
@@ -160,7 +178,7 @@ void SignsInState::look(const GeometryAccess& access, uint32_t eye_number, const
 
 void SignsInState::find_near(const GeometryAccess& access, const glm::dvec3& eye,
                              View& view) const {
-  const std::vector<Support>& supports = by_face_[view.face].supports;
+  const std::vector<Support>& supports = by_face_[view.face].supports();
   std::vector<NearSupport> by_distance;
   for (uint32_t s = 0; s < supports.size(); ++s)
     by_distance.push_back({s, glm::length(supports[s].eye - eye)});
@@ -196,30 +214,31 @@ ViewLight SignsInState::light_of(const View& view, size_t mixture, const Uncerta
     PartLight& part = out[p];
     const double passed = view.line.passed[p] * view.solid;
     part.own = {view.line.own[p] * factors_[mixture][face.parts[p].group], 0};
-    part.reflected = by_face_[view.face].reflected[mixture][p];
+    part.reflected = by_face_[view.face].reflected(mixture)[p];
     part.transmission = {passed, passed * off / sure};
     part.visible = {1, 0};
-    part.at_eye = plus(product(plus(part.own, part.reflected), part.transmission), veil);
+    part.at_eye = plus_bounds(
+        product_of_bounds(plus_bounds(part.own, part.reflected), part.transmission), veil);
   }
   PartLight& surround = out.back();
   surround.reflected =
-      product(beyond, {view.line.passed_scene, view.line.passed_scene * off / sure});
-  surround.at_eye = plus(surround.reflected, veil);
+      product_of_bounds(beyond, {view.line.passed_scene, view.line.passed_scene * off / sure});
+  surround.at_eye = plus_bounds(surround.reflected, veil);
   surround.visible = {1, 0};
   return out;
 }
 
 Sight SignsInState::judge_in(const View& view, size_t mixture, const Doubt& doubt) const {
-  const Traced& traced = by_face_[view.face];
+  const FaceLight& traced = by_face_[view.face];
   const double taken = 1 - view.line.passed_scene;
   Uncertain veil;
   if (taken > least_taken) {
-    const Interpolated glow = traced.glow[mixture].at(view.near_supports());
+    const Interpolated glow = traced.glow(mixture).at(view.near_supports());
     veil = times(taken, glow.at_worst(rules_.sure_errors, doubt));
     veil.value = std::max(0.0, veil.value);
   }
   const Uncertain beyond =
-      traced.beyond[mixture].at(view.near_supports()).at_worst(rules_.sure_errors, doubt);
+      traced.beyond(mixture).at(view.near_supports()).at_worst(rules_.sure_errors, doubt);
   const Sign& sign = judged_.scene.signs[signs_[view.slot]];
   const ViewLight light = light_of(view, mixture, veil, beyond);
   SignLook look = look_with_glare(view, light, mixture);
@@ -281,7 +300,9 @@ Sight SignsInState::judge(const View& view, const Doubt& doubt) const {
 
 SignsInState::Needs SignsInState::needs_of(const View& view) const {
   // Glare is computed once it is all that is open.
-  const View& clear = view.exact_veils ? view : without_glare(view);
+  std::optional<View> unglared;
+  if (!view.exact_veils) unglared = without_glare(view);
+  const View& clear = unglared ? *unglared : view;
   const SignEstimate now = estimate_of(judge(clear));
   const auto decides = [&](const Doubt& doubt) {
     return decides_more(estimate_of(judge(clear, doubt)), now);
@@ -327,11 +348,11 @@ size_t SignsInState::add_support(const View& view, const glm::dvec3& eye) {
     support.own[p] = view.line.own[p];
     support.arrives[p] = view.line.passed[p] * view.solid;
   }
-  by_face_[view.face].supports.push_back(support);
+  by_face_[view.face].add(support);
   return support.view;
 }
 
-/// Farthest points first, in units of the spacing there, from a view near the sign on.
+/// Farthest points first, in units of the spacing there.
 std::vector<size_t> SignsInState::add_supports(std::span<const glm::dvec3> eyes, int round) {
   const double finest = std::pow(0.5, round);
   const size_t most = round == 0 ? first_supports : more_supports;
@@ -368,81 +389,28 @@ std::vector<size_t> SignsInState::noisy_supports() const {
   std::vector<size_t> out;
   for (const View& view : views_) {
     if (!view.needs.paths) continue;
-    for (const NearSupport& near : view.near_supports())
-      out.push_back(by_face_[view.face].supports[near.support].view);
+    for (const NearSupport& near : view.near_supports()) {
+      const Support& support = by_face_[view.face].supports()[near.support];
+      if (!is_lost(support)) out.push_back(support.view);
+    }
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
-/// Light that the room throws on a face, from all paths to it.
-void SignsInState::read_reflected(size_t face, size_t mixture) {
-  Traced& traced = by_face_[face];
-  std::array<Uncertain, 2> reflected{};
-  double paths = 0;
-  for (const Support& support : traced.supports) {
-    const double more = traced_.paths(support.view);
-    if (!(more > 0)) continue;
-    const ViewLight& light = traced_.light(support.view, mixture);
-    for (size_t p = 0; p < reflected.size(); ++p)
-      reflected[p] = plus(times(paths / (paths + more), reflected[p]),
-                          times(more / (paths + more), light[p].reflected));
-    paths += more;
-  }
-  const double least = limits::least_spread / std::sqrt(std::max(1.0, paths));
-  for (Uncertain& part : reflected) part.error = std::max(part.error, least * std::abs(part.value));
-  traced.reflected[mixture] = reflected;
-}
-
-/// The glow of a support's line and the light from beyond the face.
-void SignsInState::read_support(size_t face, size_t mixture, uint32_t number) {
-  Traced& traced = by_face_[face];
-  const Support& support = traced.supports[number];
-  const double paths = traced_.paths(support.view);
-  if (!(paths > 0)) return;
-  const ViewLight& light = traced_.light(support.view, mixture);
-  Uncertain veil;
-  for (size_t p = 0; p < support.own.size(); ++p) {
-    const double own = support.own[p] * factors_[mixture][faces_[face].parts[p].group];
-    const Uncertain arrives =
-        times(support.arrives[p], plus({own, 0}, traced.reflected[mixture][p]));
-    veil = plus(veil, times(0.5, minus(light[p].at_eye, arrives)));
-  }
-  const double spread = limits::least_spread / std::sqrt(paths);
-  veil.error = std::max(veil.error, spread / std::sqrt(2.0) * std::abs(veil.value));
-  const double taken = std::max(1 - support.passed_scene, least_taken);
-  traced.glow[mixture].set(number, times(1 / taken, veil));
-  if (support.passed_scene < least_passed) return;
-  Uncertain beyond = times(1 / support.passed_scene, light.back().reflected);
-  beyond.error = std::max(beyond.error, spread * std::abs(beyond.value));
-  traced.beyond[mixture].set(number, beyond);
-}
-
-/// From all paths so far.
-void SignsInState::read_light() {
-  for (size_t face = 0; face < faces_.size(); ++face)
-    for (size_t mixture = 0; mixture < factors_.size(); ++mixture) {
-      read_reflected(face, mixture);
-      for (uint32_t s = 0; s < by_face_[face].supports.size(); ++s) read_support(face, mixture, s);
-    }
-}
-
 /// Compares each support with its neighbours.
 void SignsInState::test_supports() {
   building_->each(faces_.size(), [&](const GeometryAccess& access, size_t face) {
-    Traced& traced = by_face_[face];
-    for (uint32_t s = 0; s < traced.supports.size(); ++s) {
+    FaceLight& light = by_face_[face];
+    for (uint32_t s = 0; s < light.supports().size(); ++s) {
       View place;
-      place.face = static_cast<uint16_t>(face);
-      find_near(access, traced.supports[s].eye, place);
+      place.face = static_cast<uint32_t>(face);
+      find_near(access, light.supports()[s].eye, place);
       std::vector<NearSupport> others;
       for (const NearSupport& near : place.near_supports())
         if (near.support != s) others.push_back(near);
-      for (size_t m = 0; m < factors_.size(); ++m) {
-        traced.glow[m].test(s, others);
-        traced.beyond[m].test(s, others);
-      }
+      light.test(s, others);
     }
   });
 }
@@ -451,7 +419,8 @@ Result<void> SignsInState::trace_supports(const std::vector<size_t>& views, int 
                                           const std::atomic<bool>& interrupt,
                                           const AssessProgress& progress) {
   if (auto ok = traced_.trace(views, first_paths << round, interrupt, progress); !ok) return ok;
-  read_light();
+  for (size_t face = 0; face < faces_.size(); ++face)
+    by_face_[face].read(traced_, faces_[face], factors_);
   test_supports();
   return {};
 }

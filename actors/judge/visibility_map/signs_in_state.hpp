@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "actors/judge/assess/arriving_beside.hpp"
+#include "actors/judge/visibility_map/face_light.hpp"
 #include "actors/judge/visibility_map/glare_bound.hpp"
 #include "actors/judge/visibility_map/sight_line.hpp"
 #include "actors/judge/visibility_map/sign_answer.hpp"
-#include "actors/judge/visibility_map/support_field.hpp"
-#include "actors/judge/visibility_map/traced_views.hpp"
 
 namespace luxodus {
 
@@ -35,14 +34,16 @@ class SignsInState {
 
   /// Of the eyes that it was made with: element eye * signs + sign.
   const std::vector<SignEstimate>& estimates() const { return estimates_; }
-  /// How many of them depend on light.
-  size_t views() const { return views_.size(); }
+  /// Drops the estimates, and what only they needed. `of` may still be asked.
+  void forget_estimates();
   /// Of any eyes, likewise.
   std::vector<SignEstimate> of(std::span<const glm::dvec3> eyes) const;
 
   double sure_errors() const { return rules_.sure_errors; }
   int64_t paths() const { return traced_.all_paths(); }
   size_t supports() const;
+  /// Supports of which nothing is known, since a batch found more light than is counted.
+  size_t lost_supports() const;
 
  private:
   /// What would decide a view: more paths to its supports, or nearer supports.
@@ -52,8 +53,8 @@ class SignsInState {
   /// A view whose answer depends on light.
   struct View {
     uint32_t eye = 0;
-    uint16_t slot = 0;  // of the sign, in `signs`
-    uint16_t face = 0;  // in faces_
+    uint32_t slot = 0;  // of the sign, in `signs`
+    uint32_t face = 0;  // in faces_
     SignView geometry;
     double solid = 1;  // share of light that panes before the face let pass
     SightLine line;
@@ -65,19 +66,6 @@ class SignsInState {
     Needs needs;
 
     std::span<const NearSupport> near_supports() const { return {near.data(), nears}; }
-  };
-  struct Support {
-    glm::dvec3 eye{0};
-    size_t view = 0;                  // in traced_
-    double passed_scene = 1;          // of its line
-    std::array<double, 2> arrives{};  // of the sign's own light, by part [cd/m2]
-    std::array<double, 2> own{};      // luminance at the face, by part [cd/m2]
-  };
-  /// What is known of one face.
-  struct Traced {
-    std::vector<Support> supports;
-    std::vector<std::array<Uncertain, 2>> reflected;  // room light on its parts, by mixture
-    std::vector<SupportField> glow, beyond;           // by mixture
   };
   /// A view that would be a good support.
   struct Wanted {
@@ -108,6 +96,7 @@ class SignsInState {
                      const Uncertain& beyond) const;
   Needs needs_of(const View& view) const;
 
+  bool is_lost(const Support& support) const;
   /// Both return numbers in traced_.
   std::vector<size_t> add_supports(std::span<const glm::dvec3> eyes, int round);
   std::vector<size_t> noisy_supports() const;
@@ -115,9 +104,6 @@ class SignsInState {
   size_t add_support(const View& view, const glm::dvec3& eye);
   Result<void> trace_supports(const std::vector<size_t>& views, int round,
                               const std::atomic<bool>& interrupt, const AssessProgress& progress);
-  void read_light();
-  void read_reflected(size_t face, size_t mixture);
-  void read_support(size_t face, size_t mixture, uint32_t support);
   void test_supports();
   void judge_all(std::span<const glm::dvec3> eyes);
 
@@ -128,11 +114,11 @@ class SignsInState {
   std::optional<GlareBound> glare_;
   std::vector<FaceOfSign> faces_;
   std::vector<std::array<uint32_t, 2>> face_of_;  // by sign of the scene, front and back
-  std::vector<double> chances_;
+  std::vector<double> shares_;
   GroupFactors factors_;
   SightRules rules_;
   TracedViews traced_;
-  std::vector<Traced> by_face_;
+  std::vector<FaceLight> by_face_;
   std::vector<View> views_;
   std::vector<SignEstimate> estimates_;
 };

@@ -18,6 +18,11 @@ double weight_of(const NearSupport& near) {
 
 }  // namespace
 
+void SupportField::lose(uint32_t support) {
+  if (support >= values_.size()) values_.resize(support + 1);
+  values_[support] = {{}, -1, false, true};
+}
+
 void SupportField::set(uint32_t support, const Uncertain& value) {
   if (support >= values_.size()) values_.resize(support + 1);
   values_[support].value = value;
@@ -58,7 +63,9 @@ Interpolated SupportField::at(std::span<const NearSupport> near) const {
   double off = -1, low = out.value, high = out.value;
   size_t known = 0;
   for (const NearSupport& one : near) {
-    if (one.support >= values_.size() || !values_[one.support].known) continue;
+    if (one.support >= values_.size()) continue;
+    if (values_[one.support].lost) return out;
+    if (!values_[one.support].known) continue;
     const Value& value = values_[one.support];
     ++known;
     off = std::max(off, value.off);

@@ -17,8 +17,8 @@ struct NearSupport {
   double distance_m = 0;
 };
 
-/// Bound of the error of a luminance of which nothing is known [cd/m2]: far above that of any face
-/// of a lamp.
+/// Bound that is assumed for the error of a luminance of which nothing is known [cd/m2]: no smoke
+/// glows as brightly.
 inline constexpr double any_luminance = 1e6;
 
 /// Factors on the errors of interpolated values, to ask what less of them would decide.
@@ -48,6 +48,8 @@ class SupportField {
  public:
   /// Adds or replaces the value of a support.
   void set(uint32_t support, const Uncertain& value);
+  /// Of this support nothing can be known: nothing bounds a value near it.
+  void lose(uint32_t support);
 
   /// Compares the value of a support with that which its neighbours give there. Call again after
   /// any of them has changed. Requires: `others` without the support itself.
@@ -55,14 +57,15 @@ class SupportField {
 
   /// Between these supports, by inverse squares of distances. The bound is the largest by which one
   /// of them differs from what its neighbours give there, less noise, and half the range of their
-  /// values; any_luminance without two supports, one of which has neighbours.
+  /// values; any_luminance without two supports, one of which has neighbours, and beside one that
+  /// is lost.
   Interpolated at(std::span<const NearSupport> near) const;
 
  private:
   struct Value {
     Uncertain value;
     double off = -1;  // from what the neighbours give; < 0: not known
-    bool known = false;
+    bool known = false, lost = false;
   };
   /// Weighted mean of the values that are known, and the standard error of its noise.
   Uncertain mean(std::span<const NearSupport> near) const;

@@ -2,30 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "actors/results/run/run_executor.hpp"
+#include "actors/judge/assess/traced_round.hpp"
 
 namespace luxodus {
 
 namespace {
 
-/// Factor in compile_scene's number of paths: 0.1 of the particles, divided among the parts.
-constexpr double paths_per_particle = 0.1;
-
-/// False: a batch found more light than a tally counts, as an eye close to a lamp may.
-bool is_counted(const ViewLight& light) {
+/// False: a batch found more light than a tally counts.
+bool is_counted(const PartLight& part) {
   bool all = true;
-  for (const PartLight& part : light)
-    PartLight::each([&](const Uncertain& one) { all = all && std::isfinite(one.value); }, part);
+  PartLight::each([&](const Uncertain& one) { all = all && std::isfinite(one.value); }, part);
   return all;
 }
 
 }  // namespace
 
 size_t TracedViews::add(const glm::dvec3& eye, uint32_t sign, bool back) {
-  views_.push_back({eye, sign, back, 0, false, {}});
+  views_.push_back({eye, sign, back});
   return views_.size() - 1;
 }
 
@@ -39,10 +34,7 @@ RoundState TracedViews::state_of(const std::vector<size_t>& views, int64_t paths
     observer.gaze = judged_.scene.signs[views_[view].sign].frame.origin - observer.eye;
     observer.signs = {views_[view].sign};
   }
-  const auto parts = static_cast<double>(3 * views.size());
-  // Half a path more, so that rounding down gives this number.
-  out.eye_path_factor = (static_cast<double>(paths) + 0.5) * parts /
-                        (paths_per_particle * static_cast<double>(limits::round_batch_particles));
+  out.eye_path_factor = eye_path_factor(paths, views.size());
   return out;
 }
 
@@ -53,17 +45,16 @@ void TracedViews::pool(const CompiledScene& scene, const Totals& totals, double 
   for (const EyeTarget& target : scene.eye_targets) {
     View& view = views_[views[target.observer]];
     if (scene.signs[target.sign].back != view.back) continue;
-    std::vector<ViewLight> round;
-    for (size_t mixture = 0; mixture < mixtures; ++mixture)
-      round.push_back(read_view(readout, scene, target, mixture));
-    view.lost = view.lost || !std::all_of(round.begin(), round.end(), is_counted);
-    if (view.lost) {
-      view.paths = 0;
-      continue;
-    }
     view.light.resize(mixtures);
-    for (size_t mixture = 0; mixture < mixtures; ++mixture)
-      view.light[mixture].add(round[mixture], paths);
+    for (size_t mixture = 0; mixture < mixtures; ++mixture) {
+      ViewLight light = read_view(readout, scene, target, mixture);
+      for (size_t part = 0; part < light.size(); ++part) {
+        if (is_counted(light[part])) continue;
+        (part + 1 < light.size() ? view.face_lost : view.beyond_lost) = true;
+        light[part] = {};
+      }
+      view.light[mixture].add(light, paths);
+    }
     view.paths += paths;
   }
 }
@@ -73,24 +64,14 @@ Result<void> TracedViews::trace(const std::vector<size_t>& views, int64_t paths,
                                 const AssessProgress& progress) {
   if (views.empty()) return {};
   const std::string what = fmt::format("{} views", views.size());
-  const RoundState state = state_of(views, paths);
-  auto compiled = compile_round(judged_, state);
-  if (!compiled) return compiled.problem();
-  const uint64_t seed = options_.seed + static_cast<uint64_t>(passes_++);
-  LocalRun run(compiled.value(), seed, options_.threads);
-  StopRule stop;
-  stop.particles = view_batches * limits::round_batch_particles;
-  RunThreads threads;
-  RunExecutor& executor = options_.executor == nullptr ? threads : *options_.executor;
-  executor.enter({seed, round_text(state)});
-  const auto reason = executor.run(run, stop, interrupt, [&](const Progress& p) {
-    progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
-  });
-  if (!reason) return reason.problem();
-  if (reason.value() == StopReason::interrupted) return problem("interrupted");
-  all_paths_ += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
-                static_cast<int64_t>(3 * run.scene().eye_targets.size());
-  pool(run.scene(), run.totals(), static_cast<double>(paths * view_batches), views);
+  const RoundRequest request{state_of(views, paths),
+                             options_.seed + static_cast<uint64_t>(passes_++), view_batches};
+  const auto run = trace_round(judged_, request, options_, interrupt,
+                               [&](double share) { progress(what, share); });
+  if (!run) return run.problem();
+  all_paths_ += eye_paths_of(*run.value());
+  pool(run.value()->scene(), run.value()->totals(), static_cast<double>(paths * view_batches),
+       views);
   return {};
 }
 

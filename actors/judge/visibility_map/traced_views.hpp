@@ -28,9 +28,12 @@ class TracedViews {
   Result<void> trace(const std::vector<size_t>& views, int64_t paths,
                      const std::atomic<bool>& interrupt, const AssessProgress& progress);
 
-  /// Paths to each part of a view so far; 0 also of a view that is edge-on within rounding, and of
-  /// one in which a batch found more light than is counted.
+  /// Paths to each part of a view so far; 0 also of a view that is edge-on within rounding.
   double paths(size_t view) const { return views_[view].paths; }
+  /// Whether a batch found more light than is counted: from the face or before it, and from beyond
+  /// it. Nothing is known of that light then.
+  bool is_face_lost(size_t view) const { return views_[view].face_lost; }
+  bool is_beyond_lost(size_t view) const { return views_[view].beyond_lost; }
   /// With errors by the spread of the paths alone. Requires: paths(view) > 0.
   const ViewLight& light(size_t view, size_t mixture) const {
     return views_[view].light[mixture].sample_mean();
@@ -43,8 +46,8 @@ class TracedViews {
     uint32_t sign;
     bool back;
     double paths = 0;
-    bool lost = false;               // a batch found more light than is counted
-    std::vector<PooledLight> light;  // by mixture
+    bool face_lost = false, beyond_lost = false;  // see is_face_lost
+    std::vector<PooledLight> light = {};          // by mixture
   };
   RoundState state_of(const std::vector<size_t>& views, int64_t paths) const;
   void pool(const CompiledScene& scene, const Totals& totals, double paths,

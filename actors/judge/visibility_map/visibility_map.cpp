@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "actors/judge/visibility_map/signs_in_state.hpp"
 #include "scenes/emergency/guidance.hpp"
@@ -30,11 +31,16 @@ Result<double> floor_of(const MapRequest& request, const SceneDescription& scene
                     "--map-floor");
 }
 
-/// Errors: more rows or cells than the limits.
+/// Errors: heights that are the same in the names of files; more rows or cells than the limits.
 Result<void> check_size(const MapRequest& request, const SceneDescription& scene,
                         const VisibilityMap& map) {
+  std::set<std::string> names;
+  for (const double height : map.heights_m)
+    if (const std::string name = fmt::format("{:g}", height); !names.insert(name).second)
+      return problem_in(scene.file, "the eye height " + name + " m of the map comes twice");
   const size_t rows = map.grid.places() * map.heights_m.size() * map.states();
-  const bool fits = rows <= limits::map_rows && rows * map.signs.size() <= limits::map_cells;
+  const size_t signs = std::max(map.signs.size(), request.evac_signs);
+  const bool fits = rows <= limits::map_rows && rows * signs <= limits::map_cells;
   if (fits) return {};
   return problem_in(
       scene.file,
@@ -42,7 +48,7 @@ Result<void> check_size(const MapRequest& request, const SceneDescription& scene
                   "signs: a map has at most {} places, heights and times, and {} cells. Take a "
                   "larger --map-spacing, a smaller --map-box, or fewer times",
                   request.spacing_m, map.grid.columns, map.grid.rows, map.heights_m.size(),
-                  map.states(), map.signs.size(), limits::map_rows, limits::map_cells));
+                  map.states(), signs, limits::map_rows, limits::map_cells));
 }
 
 /// Errors: as compile_scene; an empty box.
@@ -93,6 +99,7 @@ void take_state(size_t number, const SignsInState& state, VisibilityMap& map) {
     }
   map.sure_errors = std::max(map.sure_errors, state.sure_errors());
   map.supports += state.supports();
+  map.lost_supports += state.lost_supports();
   map.paths += state.paths();
 }
 

@@ -12,7 +12,8 @@
 namespace luxodus {
 
 namespace limits {
-/// Places times heights times times of a map; these times signs; directions of view.
+/// Places times heights times times of a map; these times signs, also those of another program;
+/// directions of view.
 inline constexpr size_t map_rows = 5'000'000, map_cells = 400'000'000, map_facings = 36;
 }  // namespace limits
 
@@ -35,6 +36,7 @@ struct MapRequest {
   std::vector<double> facings_deg;  // directions of view, from +y clockwise
   /// Two corners seen from above; none: the box around the building.
   std::optional<std::pair<glm::dvec2, glm::dvec2>> box;
+  size_t evac_signs = 0;  // of the files for another program
 };
 
 struct VisibilityMap {
@@ -49,6 +51,7 @@ struct VisibilityMap {
   std::vector<char> surely_seen;    // likewise
   double sure_errors = 0;           // the largest of all states
   size_t supports = 0;              // of all states
+  size_t lost_supports = 0;         // of these, as SignsInState::lost_supports
   int64_t paths = 0;
 
   size_t states() const { return std::max<size_t>(1, times_s.size()); }
@@ -62,7 +65,8 @@ struct VisibilityMap {
 /// straight above or below the eye is. `facing_deg`: from +y clockwise.
 bool is_in_view(double facing_deg, const glm::dvec2& place, const glm::dvec3& sign);
 
-/// Errors: as SignEstimates::make; no floor that is known; a map larger than the limits.
+/// Errors: as SignEstimates::make; no floor that is known; an eye height that comes twice; a map
+/// larger than the limits.
 Result<VisibilityMap> make_map(const MapRequest& request, const std::atomic<bool>& interrupt,
                                const AssessProgress& progress);
 

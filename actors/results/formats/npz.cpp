@@ -19,7 +19,7 @@ void put_word(std::string& to, uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-std::string npy_of(const NpyArray& array) {
+std::string npy_of(NpyArray array) {
   std::string shape;
   for (const size_t length : array.shape) shape += fmt::format("{}, ", length);
   std::string header =
@@ -31,7 +31,8 @@ std::string npy_of(const NpyArray& array) {
   out += '\1';
   out += '\0';
   put_word(out, header.size(), 2);
-  return out + header + array.bytes;
+  array.bytes.insert(0, out + header);
+  return std::move(array.bytes);
 }
 
 /// Code points; bytes that are no UTF-8 become U+FFFD.
@@ -47,6 +48,7 @@ std::vector<uint32_t> code_points(std::string_view text) {
       good = (next & 0xc0) == 0x80;
       code = code << 6 | (next & 0x3f);
     }
+    good = good && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
     out.push_back(good ? code : 0xfffd);
     i += good ? length : 1;
   }
@@ -90,15 +92,16 @@ NpyArray npy_texts(std::string name, const std::vector<std::string>& texts) {
   return texts_of(std::move(name), {texts.size()}, codes);
 }
 
-Result<std::string> npz_of(const std::vector<NpyArray>& arrays) {
+Result<std::string> npz_of(std::vector<NpyArray> arrays) {
   size_t bytes = 0;
+  for (const NpyArray& array : arrays) bytes += array.bytes.size();
+  if (bytes > limits::max_npz_bytes)
+    return problem(fmt::format("the arrays take more than the {} bytes of a file for NumPy",
+                               limits::max_npz_bytes));
   std::vector<std::pair<std::string, std::string>> files;
-  for (const NpyArray& array : arrays) {
-    bytes += array.bytes.size();
-    if (bytes > limits::max_npz_bytes)
-      return problem(fmt::format("the arrays take more than the {} bytes of a file for NumPy",
-                                 limits::max_npz_bytes));
-    files.emplace_back(array.name + ".npy", npy_of(array));
+  for (NpyArray& array : arrays) {
+    const std::string name = array.name + ".npy";
+    files.emplace_back(name, npy_of(std::move(array)));
   }
   return stored_zip(files);
 }

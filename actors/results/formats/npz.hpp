@@ -33,6 +33,6 @@ NpyArray npy_text(std::string name, std::string_view text);
 NpyArray npy_texts(std::string name, const std::vector<std::string>& texts);
 
 /// Errors: more than limits::max_npz_bytes.
-Result<std::string> npz_of(const std::vector<NpyArray>& arrays);
+Result<std::string> npz_of(std::vector<NpyArray> arrays);
 
 }  // namespace luxodus

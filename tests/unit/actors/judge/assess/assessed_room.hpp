@@ -29,22 +29,8 @@ high = [9.4, 0.4, 0.75]
 material = "grey50"
 tags = ["furniture"]
 )" + middle_lamp + exit_sign_at("[11.95, 0, 2.2]") +
-                                R"(lighting = "internal"
-
-[assessment]
-irritant_smoke = false
-spacing_m = 4
-eye_heights_m = [1.65]
-
-[[route]]
-name = "way"
-path = [[1, 0, 0], [11, 0, 0]]
-width = 1.6
-
-[[scenario]]
-name = "failed"
-operation = "emergency"
-)";
+                                "lighting = \"internal\"\n" +
+                                judged_way("[[1, 0, 0], [11, 0, 0]]", "1.6");
 
 inline Result<Assessment> tried(const std::string& text, AssessOptions options = {}) {
   static const std::atomic<bool> nobody{false};

@@ -58,11 +58,20 @@ void compare(const SceneDescription& scene, const SignsInState& state,
                         assessed));
   for (const SightRow& row : assessed.sights) {
     const SightVerdict verdict = row.sight.verdict;
-    if (verdict == SightVerdict::undecided || verdict == SightVerdict::not_assessed) continue;
+    const bool partly_hidden = row.sight.reason && row.sight.reason->id == RemarkId::partly_hidden;
+    if ((verdict == SightVerdict::undecided && !partly_hidden) ||
+        verdict == SightVerdict::not_assessed)
+      continue;
     size_t sign = 0;
     while (scene.signs[sign].name != row.sign) ++sign;
     const size_t eye = std::stoul(row.from.name);
     const SignEstimate& estimate = state.estimates()[eye * scene.signs.size() + sign];
+    // Of a part of a sign an assessment says nothing, and an estimate promises nothing.
+    if (partly_hidden) {
+      CHECK(estimate.answer != SignAnswer::read);
+      counts.wrong += estimate.answer == SignAnswer::read ? 1 : 0;
+      continue;
+    }
     const bool seen = verdict == SightVerdict::legible || verdict == SightVerdict::visible;
     ++counts.decided;
     counts.read += estimate.answer == SignAnswer::read ? 1 : 0;

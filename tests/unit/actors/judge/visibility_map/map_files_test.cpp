@@ -80,7 +80,7 @@ TEST_CASE("between two times a map says what holds at both", "[judge][visibility
   set(map, 2, 0, SignAnswer::undecided);
   const EvacTable table = evac_table(map, 0, {exit_sign()});
   const auto read = [&](double t, double x, double y) { return told(table, table.read, t, x, y); };
-  for (const double t : {0.1, 4.0, 9.9, 10.1, 25.0, 39.9}) {
+  for (const double t : {0.0, 0.1, 4.0, 9.9, 10.1, 25.0, 39.9}) {
     CHECK(read(t, 2.5, 0.5));
     CHECK_FALSE(read(t, 1.5, 1.5));  // not at 10 s, hence neither before nor after
     CHECK(told(table, table.seen, t, 1.5, 1.5));
@@ -188,7 +188,7 @@ TEST_CASE("a program that follows the rules of pyFDS-Evac reads a map back",
   CHECK(read_back({file, "--config", config_file, "--fds-dir", folder.path(), "--interval", "5"}) ==
         "not taken\n");
   CHECK(std::filesystem::exists(folder / "visibility" / "visibility_1m.npz"));
-  CHECK(std::filesystem::exists(folder / "visibility" / "state_0002.vti"));
+  CHECK(std::filesystem::exists(folder / "visibility" / "state_0002_1.65m.vti"));
   const auto table = read_regular_file(folder / map_table_file, 1 << 24);
   REQUIRE(table);
   CHECK(table->substr(0, table->find('\n')) == "time_s,height_m,x_m,y_m,exit");

@@ -39,23 +39,8 @@ extinction = )" +
          extinction + R"(
 albedo = 0.6
 )" + middle_lamp +
-         exit_sign_at("[11.95, 0, 2.2]") + R"(lighting = "internal"
-
-[assessment]
-irritant_smoke = false
-spacing_m = 4
-eye_heights_m = [1.65]
-
-[[route]]
-name = "way"
-path = [[1, 1, 0], [11, 1, 0]]
-width = 1
-
-[[scenario]]
-name = "failed"
-operation = "emergency"
-seconds_after_failure = 60
-)";
+         exit_sign_at("[11.95, 0, 2.2]") + "lighting = \"internal\"\n" +
+         judged_way("[[1, 1, 0], [11, 1, 0]]", "1", "seconds_after_failure = 60\n");
 }
 
 /// Smoke that thickens, at 0, 30 and 60 s.

@@ -1,10 +1,9 @@
-// Values between supports, with their errors; glare bounds; lines to faces.
+// Values between supports, with their errors; lines to faces.
 #include "actors/judge/visibility_map/support_field.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "actors/judge/visibility_map/glare_bound.hpp"
 #include "actors/judge/visibility_map/sight_line.hpp"
 #include "actors/judge/visibility_map/traced_views.hpp"
 #include "tests/unit/actors/judge/visibility_map/small_smoky_room.hpp"
@@ -76,33 +75,13 @@ TEST_CASE("with one support or none nothing bounds a value", "[judge][visibility
   CHECK(field.at({&one, 1}).at_worst(4, {}).error == Approx(any_luminance / 4));
 }
 
-TEST_CASE("glare is never above its bound", "[judge][visibility_map]") {
-  for (const char* const extinction : {"0.0", "0.8"}) {
-    const auto scene = described_text(smoky_room(extinction));
-    const auto judged = judged_scene(*scene, judged_scenario(*scene, "").value());
-    REQUIRE(judged);
-    const auto building = Building::make(judged->scene, judged->scenario, 1);
-    REQUIRE(building);
-    const GroupFactors factors = factors_of(building.value()->scene(), judged->mixtures());
-    const GlareBound bound(*building.value());
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> x(0.2, 11), y(-1.8, 1.8);
-    std::vector<glm::dvec3> eyes;
-    for (int i = 0; i < 100; ++i) eyes.emplace_back(x(random), y(random), 1.65);
-    const glm::dvec3 centre = scene->signs.front().frame.origin;
-    std::vector<std::vector<double>> exact(eyes.size());
-    building.value()->each(eyes.size(), [&](const GeometryAccess& access, size_t i) {
-      exact[i] = arriving_beside(*building.value(), access, eyes[i], centre, 0, {65}, factors)
-                     .veils_cd_m2.front();
-    });
-    double largest = 0;
-    for (size_t i = 0; i < eyes.size(); ++i) {
-      const std::vector<double> most = bound.at(eyes[i], centre, 0, 65, factors);
-      for (size_t m = 0; m < most.size(); ++m) CHECK(exact[i][m] <= most[m] * (1 + 1e-6));
-      largest = std::max(largest, exact[i].front());
-    }
-    CHECK(largest > 0);
-  }
+TEST_CASE("beside a support of which nothing is known nothing bounds a value",
+          "[judge][visibility_map]") {
+  SupportField field = field_of({{2, 0}, {2, 0}, {2, 0}});
+  CHECK(field.at(near_place(0.5, 3)).bound < 1);
+  field.lose(2);
+  CHECK(field.at(near_place(0.5, 3)).bound == any_luminance);
+  CHECK(field.at(near_place(0.5, 2)).bound < 1);
 }
 
 TEST_CASE("a line to a face has the light that paths find", "[judge][visibility_map]") {
@@ -119,7 +98,7 @@ TEST_CASE("a line to a face has the light that paths find", "[judge][visibility_
   const size_t view = traced.add(eye, 0, false);
   REQUIRE(traced.trace({view}, 32, nobody_interrupts, say_nothing));
   building.value()->each(1, [&](const GeometryAccess& access, size_t) {
-    const SightLine line = sight_line(compiled, access, faces.front(), band_chances(compiled),
+    const SightLine line = sight_line(compiled, access, faces.front(), luminous_shares(compiled),
                                       building.value()->local(eye));
     for (size_t p = 0; p < 2; ++p) {
       const PartLight& part = traced.light(view, 0)[p];
