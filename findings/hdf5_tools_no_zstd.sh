@@ -3,7 +3,7 @@
 # library of Debian does not have this filter, and neither has the package of "external filters".
 # h5dump lists the table and cannot read a row of it.
 #
-# Package          hdf5-tools 1.10.8, hdf5-filter-plugin 0.0~git20221111 (Debian 12)
+# Package          hdf5-tools and libhdf5 1.10.8, hdf5-filter-plugin 0.0~git20221111 (Debian 12)
 # One would guess  that a current libhdf5, or at least its package of filters, reads Zstandard
 # It is            LZ4 and BZip2 that this package brings; reading fails
 # Needs            apt-get download, dpkg, g++, libhdf5-dev, libzstd-dev and the network; works in a
@@ -13,7 +13,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 apt-get download -qq hdf5-tools=1.10.8+repack1-1 libhdf5-hl-100=1.10.8+repack1-1 \
-  hdf5-filter-plugin=0.0~git20221111.49e3b65-4 >download.log 2>&1
+  libhdf5-103-1=1.10.8+repack1-1 hdf5-filter-plugin=0.0~git20221111.49e3b65-4 >download.log 2>&1
 for package in ./*.deb; do dpkg -x "$package" root; done
 cat >write.cpp <<'CPP'
 // Writes 1000 frames of one person, packed by a filter with the number of Zstandard.
@@ -49,14 +49,21 @@ int main() {
 CPP
 g++ -o write write.cpp $(pkg-config --cflags --libs hdf5 libzstd)
 ./write
-plugins=$(find root -name '*.so*' -path '*plugin*' | head -1)
-export HDF5_PLUGIN_PATH=$PWD/$(dirname "$plugins")
+plugins=$(find root -name '*.so*' -path '*plugin*')
+[ -n "$plugins" ]
+if grep -qi zstd <<<"$plugins"; then
+  echo "the package of filters brings Zstandard now"
+  exit 1
+fi
+export HDF5_PLUGIN_PATH=$PWD/$(dirname "$(head -1 <<<"$plugins")")
 export LD_LIBRARY_PATH=$PWD/root/usr/lib/x86_64-linux-gnu
 h5dump=root/usr/bin/h5dump
 "$h5dump" -p -H people.h5 | tr -s ' \n' ' ' | grep -q 'FILTER_ID 32015'
-if "$h5dump" -d /trajectory people.h5 >dump.txt 2>&1 && ! grep -q 'unable to print data' dump.txt; then
+if "$h5dump" -d /trajectory people.h5 >dump.txt 2>&1 &&
+  ! grep -q 'unable to print data' dump.txt; then
   echo "h5dump reads Zstandard now"
   exit 1
 fi
-echo "h5dump lists filter 32015 and cannot read the table: $(grep -i -m1 -E 'unable|error' dump.txt)"
-echo "filters of the package: $(ls "$HDF5_PLUGIN_PATH" | tr '\n' ' ')"
+said=$(grep -i -m1 -E 'unable|error' dump.txt)
+echo "h5dump lists filter 32015 and cannot read the table: $said"
+echo "filters of the package: $(basename -a $plugins | tr '\n' ' ')"

@@ -15,6 +15,16 @@ using Catch::Contains;
 
 namespace {
 
+/// A sign on a west wall, with 500 cd/m2 of its white on mains.
+std::string sign_text(const std::string& name, const std::string& position, double mains_green,
+                      double emergency_white, double emergency_green) {
+  return fmt::format(
+      "\n[[sign]]\nname = \"{}\"\nfile = \"exit.svg\"\nsmallest_detail = 0.016\nwidth = 0.4\n"
+      "height = 0.2\nposition = {}\nfacing = [1, 0, 0]\nmains_white = 500\nmains_green = {}\n"
+      "emergency_white = {}\nemergency_green = {}\n",
+      name, position, mains_green, emergency_white, emergency_green);
+}
+
 /// A corridor of 20 m in smoke of 0.4 /m. A sign over its end in the west, and another behind a
 /// wall, which nobody in the corridor sees.
 const std::string smoky_way = R"(
@@ -54,33 +64,9 @@ albedo = 0.3
 phase = "hg"
 g = 0.6
 angstrom = 0
-
-[[sign]]
-name = "exit"
-file = "exit.svg"
-smallest_detail = 0.016
-width = 0.4
-height = 0.2
-position = [0.02, 1.5, 2.2]
-facing = [1, 0, 0]
-mains_white = 500
-mains_green = 60
-emergency_white = 200
-emergency_green = 30
-
-[[sign]]
-name = "behind the screen"
-file = "exit.svg"
-smallest_detail = 0.016
-width = 0.4
-height = 0.2
-position = [0.02, 3.4, 2.2]
-facing = [1, 0, 0]
-mains_white = 500
-mains_green = 60
-emergency_white = 200
-emergency_green = 30
-
+)" + sign_text("exit", "[0.02, 1.5, 2.2]", 60, 200, 30) +
+                              sign_text("behind the screen", "[0.02, 3.4, 2.2]", 60, 200, 30) +
+                              R"(
 [assessment]
 irritant_smoke = false
 rules = ["en1838-2024"]
@@ -90,6 +76,52 @@ eye_heights_m = [1.6]
 name = "fire"
 operation = "emergency"
 seconds_after_failure = 60
+)";
+
+/// A room whose smoke and clock are those of a fire simulation, and two groups of people.
+const std::string smoky_room = R"(
+[time]
+from = 0
+to = 20
+step = 20
+mains_fail_at = 0
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 2, 3]
+material = "grey50"
+[[emitter]]
+name = "lamp"
+shape = "point"
+distribution = "isotropic"
+position = [2, 1, 2.9]
+flux_lm = 300
+emergency = "maintained"
+emergency_flux = 300
+emergency_flux_is = "initial"
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+[[medium]]
+name = "fire"
+kind = "fds"
+file = "fire.smv"
+albedo = 0.2
+g = 0.6
+angstrom = 1
+)" + sign_text("exit", "[0.02, 1, 2.2]", 100, 500, 100) +
+                               R"([[people]]
+name = "office"
+file = "people.txt"
+[[people]]
+name = "cinema"
+file = "people.txt"
+luminance_before = 1
+[assessment]
+irritant_smoke = false
+[[scenario]]
+name = "fire"
+operation = "emergency"
 )";
 
 /// Two people who walk west from x = 18.5 for 16 s; the second a metre behind the first.
@@ -206,7 +238,14 @@ file = "people.txt"
   CHECK(std::stod(person.at("read_s")) == read_s);
   CHECK(std::stod(person.at("mean_extinction_per_m")) == Approx(0.4).epsilon(1e-3));
   const auto json = nlohmann::json::parse(slurp(walked.place.out / "walk.json"));
-  CHECK(json["people"].size() == 2);
+  REQUIRE(json["people"].size() == 2);
+  for (const char* column : {"first_read_s", "last_read_s", "signs_read", "read_s",
+                             "mean_extinction_per_m", "largest_equivalent_background_cd_m2"})
+    CHECK(json["people"][0][column] == std::stod(person.at(column)));
+  const auto curve = csv_rows(walked.place.out / "curve.csv");
+  REQUIRE(json["curve"].size() == curve.size());
+  for (size_t i = 0; i < curve.size(); ++i)
+    CHECK(json["curve"][i]["reading_share"] == std::stod(curve[i].at("reading_share")));
   CHECK(json["steps_through_walls"] == 0);
   CHECK(slurp(walked.place.out / "map.svg").find("</svg>") != std::string::npos);
   CHECK(slurp(walked.place.out / "curve.svg").find("</svg>") != std::string::npos);
@@ -225,6 +264,8 @@ TEST_CASE("people who cannot be where the file says are one clear error", "[prog
   refused("# framerate: 1\n# id frame x/m y/m z/m\n1 0 300 2 0\n", "outside of the building");
   refused("# framerate: 1\n# id frame x/m y/m z/m\n1 0 0.3 3.5 0\n1 2 2.3 3.5 0\n",
           "of 4 steps of the people cross walls");
+  refused("# framerate: 1\n# id frame x/m y/m z/m\n1 0 3 1 0\n1 1000000 3 1 0\n",
+          "the people take 1000001 steps of 1 s");
   const Outcome nobody = scene.walk("");
   CHECK(nobody.code == 2);
   CHECK_THAT(nobody.err, Contains("nobody walks in this scene"));
@@ -260,76 +301,22 @@ TEST_CASE("people become bodies in scenes for pictures", "[program][walk]") {
 TEST_CASE("smoke between two states is linear, and groups come from their own light",
           "[program][walk]") {
   using namespace luxodus::test;
-  const TemporaryFolder folder;
+  const ScenePlace room("room.toml", smoky_room);
   SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {8, 4, 6});
   const auto even = [&](float v) { return cell_values(mesh, [v](int, int, int) { return v; }); };
-  folder.write("a.sf",
-               slice_file(mesh, "SOOT EXTINCTION COEFFICIENT", {{0, even(0)}, {20, even(0.8F)}}));
-  folder.write("fire.smv", index_of_meshes({mesh}) +
-                               slice_entry(1, true, mesh, "a.sf", "SOOT EXTINCTION COEFFICIENT"));
+  room.folder.write(
+      "a.sf", slice_file(mesh, "SOOT EXTINCTION COEFFICIENT", {{0, even(0)}, {20, even(0.8F)}}));
+  room.folder.write(
+      "fire.smv",
+      index_of_meshes({mesh}) + slice_entry(1, true, mesh, "a.sf", "SOOT EXTINCTION COEFFICIENT"));
   fs::copy_file(fs::path(LUX_SOURCE_DIR) / "scenes/library/signs/exit_straight.svg",
-                folder / "exit.svg");
-  folder.write("people.txt", "# framerate: 1\n# id frame x/m y/m z/m\n1 0 3 1 0\n1 20 1 1 0\n");
-  folder.write("room.toml", R"(
-[time]
-from = 0
-to = 20
-step = 20
-mains_fail_at = 0
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [4, 2, 3]
-material = "grey50"
-[[emitter]]
-name = "lamp"
-shape = "point"
-distribution = "isotropic"
-position = [2, 1, 2.9]
-flux_lm = 300
-emergency = "maintained"
-emergency_flux = 300
-emergency_flux_is = "initial"
-maintenance_factor = 0.8
-end_of_duration_factor = 0.7
-[[medium]]
-name = "fire"
-kind = "fds"
-file = "fire.smv"
-albedo = 0.2
-g = 0.6
-angstrom = 1
-[[sign]]
-name = "exit"
-file = "exit.svg"
-smallest_detail = 0.016
-width = 0.4
-height = 0.2
-position = [0.02, 1, 2.2]
-facing = [1, 0, 0]
-mains_white = 500
-mains_green = 100
-emergency_white = 500
-emergency_green = 100
-[[people]]
-name = "office"
-file = "people.txt"
-[[people]]
-name = "cinema"
-file = "people.txt"
-luminance_before = 1
-[assessment]
-irritant_smoke = false
-[[scenario]]
-name = "fire"
-operation = "emergency"
-)");
-  const Outcome run = run_luxodus(folder, "walk " + (folder / "room.toml").string() + " --step 5 " +
-                                              "--out " + (folder / "out").string());
+                room.folder / "exit.svg");
+  room.folder.write("people.txt",
+                    "# framerate: 1\n# id frame x/m y/m z/m\n1 0 3 1 0\n1 20 1 1 0\n");
+  const Outcome run = room.luxodus("walk " + room.scene + " --step 5 --out " + room.out.string());
   INFO(run.err);
   REQUIRE(run.code == 0);
-  const auto steps = csv_rows(folder / "out/steps.csv");
+  const auto steps = csv_rows(room.out / "steps.csv");
   REQUIRE(steps.size() == 10);
   for (size_t i = 0; i < 5; ++i) {
     INFO(steps[i].at("time_s"));
@@ -348,9 +335,14 @@ TEST_CASE("a sign that is not assessed is undecided, and a warning says so", "[p
   const std::string text = slurp(scene.place.scene);
   std::ofstream(scene.place.scene) << luxodus::test::replaced(
       text, "name = \"exit\"\n", "name = \"exit\"\nplain = \"green\"\nsmallest_detail = 0.02\n");
-  const Outcome run = scene.walk_file(two_walkers);
+  const std::string people = (scene.place.folder / "people.txt").string();
+  const Outcome run =
+      scene.walk("--trajectories " + people + " --step " + GENERATE("1", "0.1 --crowd-hides"));
   INFO(run.err);
   REQUIRE(run.code == 0);
   CHECK_THAT(run.err, Contains("whether people read the sign \"exit\" is undecided") &&
                           !Contains("\"behind the screen\" is undecided"));
+  const auto json = nlohmann::json::parse(slurp(scene.place.out / "walk.json"));
+  CHECK(json["people"][0]["first_read_s"].is_null());
+  CHECK(json["people"][0]["last_read_s"].is_null());
 }

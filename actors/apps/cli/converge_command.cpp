@@ -6,6 +6,7 @@
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/nodes_option.hpp"
 #include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/apps/cli/signals.hpp"
@@ -215,10 +216,7 @@ Command converge_command() {
                        &o->seed,
                        "Seed of the random number generator",
                        {.otherwise = "the scene's"}},
-                      {"--threads",
-                       &o->threads,
-                       "Number of threads",
-                       {.otherwise = "all cores", .range = Range{1, 1024}}},
+                      threads_option(o->threads),
                       {"--json", &o->json, "Output as JSON"}},
           .notes =
               "Doubles the particles of one run until --particles, and records the error that "

@@ -7,6 +7,7 @@
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/nodes_option.hpp"
 #include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/apps/cli/signals.hpp"
@@ -235,10 +236,7 @@ Command design_command() {
             "Luminaires moved between the places of the grid, where minima are kept with more to "
             "spare; up to as long again as --time"},
            {"--seed", &o->design.seed, "Seed of the random number generator"},
-           {"--threads",
-            &o->design.threads,
-            "Number of threads",
-            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           threads_option(o->design.threads),
            {"--language",
             &o->language,
             "Language of the page",

@@ -368,10 +368,7 @@ std::vector<Option> render_options(RenderOptions& o) {
        "patches' size"},
       {"--raw", &o.raw,
        "PNG files of the light as traced, with its noise; as many paths for all pixels"},
-      {"--threads",
-       &o.threads,
-       "Number of threads",
-       {.otherwise = "all cores", .range = Range{1, 1024}}},
+      threads_option(o.threads),
       nodes_option(o.nodes)};
   all.insert(all.end(), more.begin(), more.end());
   const std::vector<Option> film{

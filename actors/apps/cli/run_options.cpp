@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/nodes_option.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/cast/process/planned_nodes.hpp"
 
@@ -27,10 +28,7 @@ std::vector<Option> scene_options(RunOptions& o) {
        {.form = Form::name, .otherwise = "the first"}},
       at_option(o.at),
       {"--seed", &o.seed, "Seed of the random number generator", {.otherwise = "the scene's"}},
-      {"--threads",
-       &o.threads,
-       "Number of threads",
-       {.otherwise = "all cores", .range = Range{1, 1024}}},
+      threads_option(o.threads),
       {"--cells",
        &o.cells,
        "Number of geometry cells; 1 is one merged scene",

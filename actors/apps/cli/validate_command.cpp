@@ -197,10 +197,7 @@ Command validate_command() {
             "Folder for validate.html and .json, or experiments.md, .json and .svg",
             {.form = Form::folder}},
            {"--seed", &o->seed, "Seed of the random number generator"},
-           {"--threads",
-            &o->threads,
-            "Number of threads",
-            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           threads_option(o->threads),
            nodes_option(o->nodes)},
       .notes =
           "Cases are scenes whose light is known: closed forms, deterministic solvers, published "

@@ -116,10 +116,7 @@ Command view_command() {
                        return count ? Result<void>() : count.problem();
                      }}},
                {"--seed", &o->live.seed, "Seed of the random number generator"},
-               {"--threads",
-                &o->live.threads,
-                "Number of threads",
-                {.otherwise = "all cores", .range = Range{1, 1024}}},
+               threads_option(o->live.threads),
                nodes_option(o->nodes)},
           .notes =
               "Traces while you walk; dim, move, thicken, and see it at once. Beyond this machine "

@@ -16,7 +16,6 @@
 #include "actors/cast/process/in_process.hpp"
 #include "actors/judge/assess/plan_cut.hpp"
 #include "actors/judge/walk/walk_files.hpp"
-#include "actors/judge/walk/walk_summary.hpp"
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
@@ -95,15 +94,14 @@ Result<void> write_figures(const fs::path& folder, const std::string& scene,
 }
 
 /// Warns of signs about which nothing is known wherever people could look at them.
-void warn_of_undecided(const SceneDescription& scene, const WalkOfScene& walk, double step_s) {
-  const auto signs = sign_summaries(scene.signs.size(), walk.walks, step_s);
+void warn_of_undecided(const SceneDescription& scene, const std::vector<SignSummary>& signs) {
   for (size_t i = 0; i < signs.size(); ++i) {
     const auto seconds = [&](SignAnswer answer) {
       return signs[i].by_answer_s[static_cast<size_t>(answer)];
     };
-    const double undecided_s = seconds(SignAnswer::undecided);
-    if (undecided_s == 0 || undecided_s + seconds(SignAnswer::hidden) < signs[i].in_view_s)
-      continue;
+    const double decided_s =
+        seconds(SignAnswer::read) + seconds(SignAnswer::seen) + seconds(SignAnswer::invisible);
+    if (seconds(SignAnswer::undecided) == 0 || decided_s > 0) continue;
     warn(problem_in(scene.signs[i].place,
                     fmt::format("whether people read the sign \"{}\" is undecided wherever they "
                                 "have it in view: luxodus assess says why, from an [[observer]]",
@@ -111,11 +109,10 @@ void warn_of_undecided(const SceneDescription& scene, const WalkOfScene& walk, d
   }
 }
 
-void print_walk(const WalkRequest& request, const WalkOfScene& walk) {
+void print_walk(const WalkOfScene& walk, const std::vector<PersonSummary>& people) {
   double all_s = 0, read_s = 0, undecided_s = 0, longest_s = 0;
   size_t never = 0;
-  for (const WalkedPerson& walked : walk.walks) {
-    const PersonSummary s = summary_of(walked, request.walk.step_s);
+  for (const PersonSummary& s : people) {
     read_s += s.read_s;
     undecided_s += s.undecided_s;
     all_s += s.read_s + s.undecided_s + s.unread_s;
@@ -123,7 +120,7 @@ void print_walk(const WalkRequest& request, const WalkOfScene& walk) {
     never += s.first_read_s ? 0 : 1;
   }
   std::printf("scenario %s: %zu people, %.0f person-seconds\n", walk.scenario.c_str(),
-              request.people.size(), all_s);
+              people.size(), all_s);
   std::printf("%.2g %% of %zu steps cross walls or begin in solids\n", 100 * walk.walls.share(),
               walk.walls.steps);
   std::printf("with a sign that is read: %.1f %% of the time; undecided %.1f %%; without %.1f %%\n",
@@ -174,19 +171,19 @@ Result<ExitCode> walk(const WalkCommandOptions& o) {
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
+  const WalkSummaries summaries =
+      summaries_of(scene->signs.size(), walked->walks, request.walk.step_s);
   if (auto ok = write_walk(out->path(), {*scene, request.people, request.walk, walked.value(),
-                                         levels, people->forms, build.version});
+                                         summaries, levels, people->forms, build.version});
       !ok)
     return ok.problem();
   if (auto ok = write_figures(out->path(), o.scene, request.people, figures); !ok)
     return ok.problem();
-  print_walk(request, walked.value());
-  warn_of_undecided(*scene, walked.value(), request.walk.step_s);
+  print_walk(walked.value(), summaries.people);
+  warn_of_undecided(*scene, summaries.signs);
   std::printf("written to %s\n", out->named().string().c_str());
   return ExitCode::success;
 }
-
-}  // namespace
 
 /// Times at which people become bodies.
 Option figures_option(std::vector<std::string>& figures) {
@@ -198,6 +195,8 @@ Option figures_option(std::vector<std::string>& figures) {
   out.traits.otherwise.clear();
   return out;
 }
+
+}  // namespace
 
 Command walk_command() {
   const auto o = std::make_shared<WalkCommandOptions>();
@@ -212,12 +211,7 @@ Command walk_command() {
             &o->trajectories,
             "File of trajectories, instead of that of [[people]] in the scene",
             {.form = Form::file}},
-           {"--scenario",
-            &o->assess.scenario,
-            "State of the building",
-            {.form = Form::name,
-             .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
-                          "is guessed"}},
+           scenario_option(o->assess),
            times_option(o->at),
            {"--out",
             &o->out,
@@ -233,29 +227,18 @@ Command walk_command() {
             {.range = Range{1, 360}}},
            {"--crowd-hides", &o->walk.crowd_hides, "People who hide signs from those behind them"},
            figures_option(o->figures),
-           {"--place",
-            &o->place,
-            "Whether people know where the signs are; a sign of unknown place is seen at 5 times "
-            "the contrast",
-            {.choices = {"known", "unknown"}}},
+           place_option(o->place),
            {"--seed", &o->assess.seed, "Seed of the random number generator"},
-           {"--threads",
-            &o->assess.threads,
-            "Number of threads",
-            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           threads_option(o->assess.threads),
            nodes_option(o->nodes),
-           {"--rounds",
-            &o->assess.rounds,
-            "Largest number of rounds of paths, each of four times as many, for what is undecided",
-            {.range = Range{1, limits::sight_rounds}}}},
+           rounds_option(o->assess)},
       .notes =
           "Reads SQLite and HDF5 of JuPedSim, text of PeTrack, CSV and JSON of Pathfinder. Signs "
           "count that belong on the way (routes of the scene; all signs where it has none). Writes "
           "people.csv, signs.csv, steps.csv, curve.csv, curve.svg, walk.json, maps of where people "
           "stood without a sign that they read, and animations of them; with --figures scenes in "
-          "which people stand as bodies. It says nothing of heat, "
-          "gases or the time "
-          "that is available for escape.\n"
+          "which people stand as bodies. It says nothing of heat, gases or the time that is "
+          "available for escape.\n"
           "  luxodus walk office.toml --trajectories jupedsim.sqlite --out out/walk\n"
           "  luxodus walk office.toml --crowd-hides --step 0.5\n"
           "  luxodus walk office.toml --figures 30s --out out/walk\n"

@@ -12,7 +12,7 @@ namespace {
 
 /// A body is a cylinder as wide as those that hide signs, up to the chin; the head is a ball
 /// about the eyes [m]. Coarse meshes do for silhouettes.
-constexpr double body_radius_m = 0.25, head_radius_m = 0.13, shoulders_below_eyes_m = 0.12;
+constexpr double head_radius_m = 0.13, shoulders_below_eyes_m = 0.12;
 constexpr double mesh_tolerance_m = 0.01;
 /// Clothes. They have the tags "people" and "furniture": routes pass them, and the codes, which
 /// judge light without what stands around, ignore them.

@@ -1,5 +1,7 @@
 #include "actors/judge/walk/follow.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +13,8 @@ namespace luxodus {
 
 namespace {
 
-/// Half of the width of a body [m], as evacuation programs take it, and how far heads reach above
-/// eyes [m].
-constexpr double shoulder_m = 0.25, crown_m = 0.11;
+/// How far heads reach above eyes [m].
+constexpr double crown_m = 0.11;
 /// Rounding of times that are multiples of a step, in steps.
 constexpr double step_rounding = 1e-9;
 /// Points along each edge of a face.
@@ -23,7 +24,7 @@ constexpr int face_points = 3;
 bool passes(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& foot, double height_m) {
   const glm::dvec2 way(to - from), aside(glm::dvec2(from) - glm::dvec2(foot));
   const double a = glm::dot(way, way), b = glm::dot(way, aside),
-               c = glm::dot(aside, aside) - shoulder_m * shoulder_m;
+               c = glm::dot(aside, aside) - body_radius_m * body_radius_m;
   if (c < 0) return false;  // the eye stands within: two people at one place
   const double root = b * b - a * c;
   if (a <= 0 || root < 0) return false;
@@ -32,6 +33,13 @@ bool passes(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& foot
   if (first >= last) return false;
   const double z0 = from.z + first * (to.z - from.z), z1 = from.z + last * (to.z - from.z);
   return std::min(z0, z1) < foot.z + height_m && std::max(z0, z1) > foot.z;
+}
+
+/// The numbers of the first and the last step of a person on the clock; the last is smaller where
+/// no multiple of the step lies within the person's times.
+std::pair<double, double> step_numbers(const PlacedPerson& person, double step_s) {
+  return {std::ceil(person.times_s.front() / step_s - step_rounding),
+          std::floor(person.times_s.back() / step_s + step_rounding)};
 }
 
 /// People who are in the building at a time, but one.
@@ -67,12 +75,13 @@ class Looking {
                                   std::span<const SignAnswer> answers) const {
     std::vector<SignOnWay> out;
     const glm::dvec3 foot = step.eye - glm::dvec3(0, 0, people_[person].eye_height_m);
+    const WaysAhead ways(scene_, foot);
     std::optional<std::vector<const PlacedPerson*>> others;
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
       const Sign& sign = scene_.signs[s];
       const SignView view = view_of_sign(sign, step.eye);
       if (!in_field_of_view(step.eye, step.facing, view.centre, options_.field_of_view_deg) ||
-          !is_on_way(scene_, sign, foot, step.eye))
+          !ways.lead_past(sign, view))
         continue;
       SignOnWay one{s, answers[s], false};
       if (options_.crowd_hides && one.answer != SignAnswer::hidden) {
@@ -99,12 +108,36 @@ size_t WalkStep::count(SignAnswer answer) const {
 
 std::vector<double> step_times(const PlacedPerson& person, double step_s) {
   std::vector<double> out;
-  const double first = std::ceil(person.times_s.front() / step_s - step_rounding);
-  const double last = std::floor(person.times_s.back() / step_s + step_rounding);
+  const auto [first, last] = step_numbers(person, step_s);
   for (double k = first + 0.0; k <= last; ++k)  // no negative zero
     out.push_back(std::clamp(k * step_s, person.times_s.front(), person.times_s.back()));
   if (out.empty()) out.push_back(person.times_s.front());
   return out;
+}
+
+Result<void> check_steps(const std::vector<PlacedPerson>& people, double step_s,
+                         const std::string& scene_file) {
+  double steps = 0, first_s = 0, last_s = 0;
+  for (size_t i = 0; i < people.size(); ++i) {
+    const auto [first, last] = step_numbers(people[i], step_s);
+    steps += std::max(last - first + 1, 1.0);
+    const double from_s = people[i].times_s.front(), to_s = people[i].times_s.back();
+    first_s = i == 0 ? from_s : std::min(first_s, from_s);
+    last_s = i == 0 ? to_s : std::max(last_s, to_s);
+  }
+  constexpr auto most = static_cast<double>(limits::walk_steps);
+  if (steps > most)
+    return problem_in(scene_file,
+                      fmt::format("the people take {:.0f} steps of {:g} s; at most {:.0f} are "
+                                  "followed: choose a longer --step",
+                                  steps, step_s, most));
+  if ((last_s - first_s) / step_s > most)
+    return problem_in(
+        scene_file, fmt::format("people are in the building from {:g} to {:g} s, more than {:.0f} "
+                                "steps of {:g} s: choose a longer --step, or state other "
+                                "time_shift_s in [[people]]",
+                                first_s, last_s, most, step_s));
+  return {};
 }
 
 bool in_field_of_view(const glm::dvec3& eye, const glm::dvec2& facing, const glm::dvec3& place,
@@ -115,19 +148,25 @@ bool in_field_of_view(const glm::dvec3& eye, const glm::dvec2& facing, const glm
   return glm::dot(to, facing) / length >= std::cos(glm::radians(field_of_view_deg / 2)) - 1e-12;
 }
 
-bool is_on_way(const SceneDescription& scene, const Sign& sign, const glm::dvec3& foot,
-               const glm::dvec3& eye) {
-  const SignView view = view_of_sign(sign, eye);
-  if (view.behind) return false;
-  if (scene.routes.empty()) return true;
+WaysAhead::WaysAhead(const SceneDescription& scene, const glm::dvec3& foot)
+    : foot_(foot), any_sign_(scene.routes.empty()) {
   for (const EscapeRoute& route : scene.routes) {
     const double along_m = passed_at_m(route, foot);
-    if (std::abs(place_along(route, along_m).z - foot.z) > storey_m) continue;
-    // Where the person looks is asked elsewhere: for the route the sign is straight ahead.
-    const Walker walker{foot, view.centre - foot, along_m};
-    if (can_guide(route, walker, sign, view)) return true;
+    if (std::abs(place_along(route, along_m).z - foot.z) <= storey_m)
+      here_.push_back({&route, along_m});
   }
-  return false;
+}
+
+bool WaysAhead::lead_past(const Sign& sign, const SignView& view) const {
+  if (view.behind) return false;
+  if (any_sign_) return true;
+  // Where the person looks is asked elsewhere: for the route the sign is straight ahead.
+  const glm::dvec3 to = view.centre - foot_;
+  const double length = glm::length(to);
+  if (length == 0) return false;
+  return std::any_of(here_.begin(), here_.end(), [&](const RouteHere& one) {
+    return can_guide(*one.route, {foot_, to / length, one.along_m}, sign, view);
+  });
 }
 
 bool people_hide(const Sign& sign, const SignView& view, const glm::dvec3& eye,
@@ -135,7 +174,7 @@ bool people_hide(const Sign& sign, const SignView& view, const glm::dvec3& eye,
   std::vector<std::pair<glm::dvec3, double>> bodies;  // feet and heights near the line
   for (const PlacedPerson* one : others) {
     const glm::dvec3 foot = foot_at(*one, time_s);
-    if (glm::distance(glm::dvec2(foot), glm::dvec2(eye)) < view.distance_m + shoulder_m)
+    if (glm::distance(glm::dvec2(foot), glm::dvec2(eye)) < view.distance_m + body_radius_m)
       bodies.emplace_back(foot, one->eye_height_m + crown_m);
   }
   int hidden = 0;
@@ -162,12 +201,13 @@ std::vector<WalkedPerson> begin_walks(const std::vector<PlacedPerson>& people,
   for (size_t p = 0; p < people.size(); ++p) {
     const PlacedPerson& one = people[p];
     WalkedPerson walked{p, {}};
-    for (const double time : step_times(one, options.step_s)) {
-      const PersonAt at = person_at(one, time);
+    const std::vector<double> times = step_times(one, options.step_s);
+    const std::vector<PersonAt> places = person_at_each(one, times);
+    for (size_t i = 0; i < times.size(); ++i) {
       WalkStep step;
-      step.time_s = time;
-      step.eye = at.foot + glm::dvec3(0, 0, one.eye_height_m);
-      step.facing = at.facing;
+      step.time_s = times[i];
+      step.eye = places[i].foot + glm::dvec3(0, 0, one.eye_height_m);
+      step.facing = places[i].facing;
       walked.steps.push_back(std::move(step));
     }
     out.push_back(std::move(walked));

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "actors/judge/visibility_map/sign_estimates.hpp"
@@ -61,11 +62,31 @@ struct WalkedPerson {
 /// first time if there is none.
 std::vector<double> step_times(const PlacedPerson& person, double step_s);
 
-/// Whether a sign belongs on the way of a person whose foot is here: some route of the storey that
-/// it leads along comes past it later, in the direction of its arrow (guidance.hpp). In a scene
-/// without routes all signs do that turn a face to the eye.
-bool is_on_way(const SceneDescription& scene, const Sign& sign, const glm::dvec3& foot,
-               const glm::dvec3& eye);
+/// Errors: the people take more steps than limits::walk_steps, or more fit between the first and
+/// the last of their times. Files state any times, so this is asked before steps are made.
+Result<void> check_steps(const std::vector<PlacedPerson>& people, double step_s,
+                         const std::string& scene_file);
+
+/// The ways that lie ahead of a person whose foot is at one place.
+class WaysAhead {
+ public:
+  /// Requires: the scene outlives it.
+  WaysAhead(const SceneDescription& scene, const glm::dvec3& foot);
+  /// Whether a sign belongs on the way: some route of the storey that it leads along comes past it
+  /// later, in the direction of its arrow (guidance.hpp). In a scene without routes all signs do
+  /// that turn a face to the eye. `view`: from the person's eye.
+  bool lead_past(const Sign& sign, const SignView& view) const;
+
+ private:
+  /// A route of the storey, and how far along it the person is.
+  struct RouteHere {
+    const EscapeRoute* route;
+    double along_m;
+  };
+  glm::dvec3 foot_;
+  bool any_sign_;  // there are no routes in the scene
+  std::vector<RouteHere> here_;
+};
 
 /// Whether a place lies in the field of view, in plan.
 bool in_field_of_view(const glm::dvec3& eye, const glm::dvec2& facing, const glm::dvec3& place,
@@ -76,7 +97,7 @@ bool in_field_of_view(const glm::dvec3& eye, const glm::dvec2& facing, const glm
 bool people_hide(const Sign& sign, const SignView& view, const glm::dvec3& eye,
                  std::span<const PlacedPerson* const> others, double time_s);
 
-/// The steps of all people, with places and directions only.
+/// The steps of all people, with places and directions only. Requires: check_steps.
 std::vector<WalkedPerson> begin_walks(const std::vector<PlacedPerson>& people,
                                       const WalkOptions& options);
 /// The eyes of all steps, one person after another.

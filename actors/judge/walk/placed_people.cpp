@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace luxodus {
 
@@ -19,12 +20,29 @@ glm::dvec2 turned(const glm::dvec2& v, double deg) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+/// Errors: heights are stated for a file that has them, or are shifted in one that has none.
+Result<void> check_heights(const PeopleSettings& settings, const Trajectories& file) {
+  const auto bad = [&](const char* what) {
+    return problem_in(settings.place, "the file \"" + settings.file + "\" has " + what);
+  };
+  if (file.has_heights && !settings.storeys.empty())
+    return bad("heights, which [[people.storey]] contradicts: take these tables away");
+  if (file.has_heights && settings.floor_m)
+    return bad(
+        "heights, which 'floor_m' contradicts: take it away, or state the z of 'shift' instead");
+  if (!file.has_heights && settings.shift.z != 0)
+    return bad(
+        "no heights that the z of 'shift' could be added to: state 'floor_m' instead, or the "
+        "floor_m of each [[people.storey]]");
+  return {};
+}
+
 /// The place before all turns and shifts, with the height of its floor.
 Result<glm::dvec3> on_floor(const PeopleSettings& settings, const Trajectories& file,
                             const Trajectory& person, size_t i) {
   const glm::dvec3& place = person.places[i];
   if (file.has_heights) return place;
-  if (settings.storeys.empty()) return glm::dvec3(glm::dvec2(place), settings.floor_m);
+  if (settings.storeys.empty()) return glm::dvec3(glm::dvec2(place), settings.floor_m.value_or(0));
   for (const PeopleStorey& storey : settings.storeys)
     if (place.x >= storey.low.x && place.x <= storey.high.x && place.y >= storey.low.y &&
         place.y <= storey.high.y)
@@ -41,6 +59,40 @@ glm::dvec2 motion_at(const PlacedPerson& person, double time_s) {
   const double length = glm::length(way);
   return length > sway_m ? way / length : glm::dvec2(0);
 }
+
+/// Looks in strides for the nearest direction of a way, back in time (-1) or ahead (1). Two times
+/// that are whole strides apart look at the same times, so the second search goes as far as the
+/// first has begun, and takes over what that found.
+class WaySearch {
+ public:
+  WaySearch(const PlacedPerson& person, int sign) : person_(person), sign_(sign) {}
+
+  /// 0 if there is none. Requires: times asked come in the direction against that of the search.
+  glm::dvec2 from(double time_s) {
+    const double end_s = sign_ < 0 ? person_.times_s.front() : person_.times_s.back();
+    const long phase = std::lround(std::remainder(time_s, stride_s) / phase_s);
+    Known& known = known_.try_emplace(phase, Known{end_s, glm::dvec2(0)}).first->second;
+    glm::dvec2 out = motion_at(person_, time_s);
+    for (double at = time_s + sign_ * stride_s;
+         out == glm::dvec2(0) && sign_ * (known.until_s - at) > 0; at += sign_ * stride_s)
+      out = motion_at(person_, at);
+    if (out == glm::dvec2(0)) out = known.found;
+    known = {time_s - sign_ * stride_s / 2, out};
+    return out;
+  }
+
+ private:
+  struct Known {
+    double until_s;    // beyond it is what an earlier search has looked at, or the person's end
+    glm::dvec2 found;  // from there on
+  };
+  /// Times are alike whose places in a stride differ by less [s]; so there are few of them.
+  static constexpr double phase_s = 0.01;
+
+  const PlacedPerson& person_;
+  int sign_;
+  std::map<long, Known> known_;  // by the place of a time in a stride
+};
 
 glm::dvec2 stated_facing(const PlacedPerson& person, double time_s) {
   const auto& t = person.times_s;
@@ -65,10 +117,7 @@ glm::dvec3 foot_at(const PlacedPerson& person, double time_s) {
 Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
                                                const Trajectories& trajectories,
                                                const AssessmentSettings& assessment) {
-  if (trajectories.has_heights && !settings.storeys.empty())
-    return problem_in(settings.place, "the file \"" + settings.file +
-                                          "\" has heights, which [[people.storey]] contradicts: "
-                                          "take these tables away");
+  if (auto ok = check_heights(settings, trajectories); !ok) return ok.problem();
   std::vector<PlacedPerson> out;
   for (const Trajectory& person : trajectories.people) {
     PlacedPerson placed{
@@ -84,8 +133,7 @@ Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
       const auto place = on_floor(settings, trajectories, person, i);
       if (!place) return place.problem();
       const glm::dvec2 plan = turned(glm::dvec2(place.value()), settings.turn_deg);
-      const double lift_m = trajectories.has_heights ? settings.shift.z : 0;
-      placed.feet.emplace_back(plan + glm::dvec2(settings.shift), place->z + lift_m);
+      placed.feet.emplace_back(plan + glm::dvec2(settings.shift), place->z + settings.shift.z);
       placed.times_s.push_back(person.times_s[i] + settings.time_shift_s);
     }
     for (const glm::dvec2& facing : person.facing)
@@ -96,18 +144,21 @@ Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
 }
 
 PersonAt person_at(const PlacedPerson& person, double time_s) {
-  PersonAt out{foot_at(person, time_s), glm::dvec2(0)};
+  return person_at_each(person, {time_s}).front();
+}
+
+std::vector<PersonAt> person_at_each(const PlacedPerson& person,
+                                     const std::vector<double>& times_s) {
+  std::vector<PersonAt> out;
+  for (const double time_s : times_s) out.push_back({foot_at(person, time_s), glm::dvec2(0)});
   if (!person.facing.empty()) {
-    out.facing = stated_facing(person, time_s);
+    for (size_t i = 0; i < times_s.size(); ++i) out[i].facing = stated_facing(person, times_s[i]);
     return out;
   }
-  out.facing = motion_at(person, time_s);
-  const auto& t = person.times_s;
-  for (double before = time_s; out.facing == glm::dvec2(0) && before > t.front();
-       before -= stride_s)
-    out.facing = motion_at(person, before);
-  for (double after = time_s; out.facing == glm::dvec2(0) && after < t.back(); after += stride_s)
-    out.facing = motion_at(person, after);
+  WaySearch before(person, -1), after(person, 1);
+  for (size_t i = 0; i < times_s.size(); ++i) out[i].facing = before.from(times_s[i]);
+  for (size_t i = times_s.size(); i-- > 0;)
+    if (out[i].facing == glm::dvec2(0)) out[i].facing = after.from(times_s[i]);
   return out;
 }
 

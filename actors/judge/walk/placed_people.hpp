@@ -9,6 +9,9 @@
 
 namespace luxodus {
 
+/// Half of the width of a body [m], as evacuation programs take it.
+inline constexpr double body_radius_m = 0.25;
+
 struct PlacedPerson {
   std::string group;
   int64_t id = 0;  // in the file of the group
@@ -25,7 +28,8 @@ struct PersonAt {
 };
 
 /// Turns, shifts and lifts the people of one group. Errors: a person beside all boxes of
-/// [[people.storey]]; storeys for a file that has heights.
+/// [[people.storey]]; storeys or floor_m for a file that has heights; a z of shift for one that has
+/// none.
 Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
                                                const Trajectories& trajectories,
                                                const AssessmentSettings& assessment);
@@ -33,10 +37,14 @@ Result<std::vector<PlacedPerson>> place_people(const PeopleSettings& settings,
 /// Where a person stands, linear between the stated times.
 glm::dvec3 foot_at(const PlacedPerson& person, double time_s);
 
-/// Between the stated times places are interpolated linearly. People look where their file says, or
-/// else where they walk: along their way within half a second before and after, or, while they
-/// stand, where they walked before, or will walk first. Requires: a time within the person's times.
+/// Where a person is and looks: where the file says, or else where the person walks, along the way
+/// within half a second before and after, or, for people who stand, where they walked before, or
+/// will walk first. Requires: a time within the person's times.
 PersonAt person_at(const PlacedPerson& person, double time_s);
+/// The same at each of these ascending times, in a time that does not grow with how long people
+/// stand.
+std::vector<PersonAt> person_at_each(const PlacedPerson& person,
+                                     const std::vector<double>& times_s);
 
 /// Whether a person is in the building at a time.
 inline bool is_present(const PlacedPerson& person, double time_s) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "actors/judge/walk/walk_summary.hpp"
+#include "actors/judge/assess/plan_cut.hpp"
 #include "actors/results/formats/csv.hpp"
 #include "actors/results/formats/json_out.hpp"
 #include "actors/results/formats/svg_plot.hpp"
@@ -26,9 +26,9 @@ CsvTable people_csv(const WalkToWrite& w) {
                   "longest_without_s", "first_read_s", "last_read_s", "signs_read",
                   "mean_extinction_per_m", "largest_extinction_per_m",
                   "largest_equivalent_background_cd_m2"});
-  for (const WalkedPerson& walked : w.walk.walks) {
-    const PlacedPerson& one = w.people[walked.person];
-    const PersonSummary s = summary_of(walked, w.options.step_s);
+  for (size_t i = 0; i < w.walk.walks.size(); ++i) {
+    const PlacedPerson& one = w.people[w.walk.walks[i].person];
+    const PersonSummary& s = w.summaries.people[i];
     table.row(one.group, one.id, s.from_s, s.to_s, s.read_s, s.undecided_s, s.unread_s,
               s.longest_unread_s, s.first_read_s, s.last_read_s, static_cast<int64_t>(s.signs_read),
               s.mean_extinction, s.max_extinction, s.max_bleached_cd_m2);
@@ -42,7 +42,7 @@ CsvTable signs_csv(const WalkToWrite& w) {
     columns.push_back(std::string(name_of(static_cast<SignAnswer>(a))) + "_s");
   columns.insert(columns.end(), {"hidden_by_people_s", "readers"});
   CsvTable table(columns);
-  const auto signs = sign_summaries(w.scene.signs.size(), w.walk.walks, w.options.step_s);
+  const std::vector<SignSummary>& signs = w.summaries.signs;
   for (size_t i = 0; i < signs.size(); ++i) {
     table.cells(w.scene.signs[i].name, signs[i].in_view_s);
     for (const double seconds : signs[i].by_answer_s) table.cell(seconds);
@@ -75,15 +75,14 @@ CsvTable steps_csv(const WalkToWrite& w) {
 
 CsvTable curve_csv(const std::vector<CurvePoint>& curve) {
   CsvTable table({"time_s", "people", "reading", "undecided", "reading_share"});
-  for (const CurvePoint& point : curve) {
-    table.cells(point.time_s, static_cast<int64_t>(point.present),
-                static_cast<int64_t>(point.reading), static_cast<int64_t>(point.undecided));
-    (point.present > 0 ? table.cell(point.reading_share()) : table.empty_cell()).end_row();
-  }
+  for (const CurvePoint& point : curve)
+    table.row(point.time_s, static_cast<int64_t>(point.present),
+              static_cast<int64_t>(point.reading), static_cast<int64_t>(point.undecided),
+              point.reading_share());
   return table;
 }
 
-SvgPlot curve_plot(const WalkToWrite& w, const std::vector<CurvePoint>& curve) {
+SvgPlot curve_plot(const WalkToWrite& w) {
   SvgPlot plot;
   plot.title = "People who have a sign that they read";
   plot.subtitle =
@@ -92,16 +91,20 @@ SvgPlot curve_plot(const WalkToWrite& w, const std::vector<CurvePoint>& curve) {
   plot.label_y = "share of the people in the building [%]";
   PlotSeries read{.name = "surely read", .x = {}, .y = {}, .error = {}, .markers = false};
   PlotSeries perhaps{.name = "read or undecided", .x = {}, .y = {}, .error = {}, .markers = false};
-  for (const CurvePoint& point : curve) {
+  for (const CurvePoint& point : w.summaries.curve) {
     if (point.present == 0) continue;
     const double all = static_cast<double>(point.present);
     read.x.push_back(point.time_s);
-    read.y.push_back(100 * point.reading_share());
+    read.y.push_back(100 * *point.reading_share());
     perhaps.x.push_back(point.time_s);
     perhaps.y.push_back(100 * static_cast<double>(point.reading + point.undecided) / all);
   }
   plot.series = {std::move(perhaps), std::move(read)};  // the last one is drawn on top
   return plot;
+}
+
+Json json_or_null(const std::optional<double>& value) {
+  return value ? number_json(*value) : Json();
 }
 
 Json person_json(const PlacedPerson& one, const PersonSummary& s) {
@@ -114,12 +117,16 @@ Json person_json(const PlacedPerson& one, const PersonSummary& s) {
   out["undecided_s"] = s.undecided_s;
   out["unread_s"] = s.unread_s;
   out["longest_without_s"] = s.longest_unread_s;
+  out["first_read_s"] = json_or_null(s.first_read_s);
+  out["last_read_s"] = json_or_null(s.last_read_s);
+  out["signs_read"] = s.signs_read;
   out["mean_extinction_per_m"] = s.mean_extinction;
   out["largest_extinction_per_m"] = s.max_extinction;
+  out["largest_equivalent_background_cd_m2"] = s.max_bleached_cd_m2;
   return out;
 }
 
-Json walk_json(const WalkToWrite& w, const std::vector<CurvePoint>& curve) {
+Json walk_json(const WalkToWrite& w) {
   Json out = Json::object();
   out["program"] = w.version;
   out["scene"] = w.scene.name;
@@ -132,11 +139,10 @@ Json walk_json(const WalkToWrite& w, const std::vector<CurvePoint>& curve) {
   out["steps_through_walls"] = w.walk.walls.share();
   out["sure_errors"] = w.walk.sure_errors;
   out["people"] = Json::array();
-  for (const WalkedPerson& walked : w.walk.walks)
-    out["people"].push_back(
-        person_json(w.people[walked.person], summary_of(walked, w.options.step_s)));
+  for (size_t i = 0; i < w.walk.walks.size(); ++i)
+    out["people"].push_back(person_json(w.people[w.walk.walks[i].person], w.summaries.people[i]));
   out["signs"] = Json::array();
-  const auto signs = sign_summaries(w.scene.signs.size(), w.walk.walks, w.options.step_s);
+  const std::vector<SignSummary>& signs = w.summaries.signs;
   for (size_t i = 0; i < signs.size(); ++i) {
     Json sign = Json::object();
     sign["name"] = w.scene.signs[i].name;
@@ -148,25 +154,24 @@ Json walk_json(const WalkToWrite& w, const std::vector<CurvePoint>& curve) {
     out["signs"].push_back(std::move(sign));
   }
   out["curve"] = Json::array();
-  for (const CurvePoint& point : curve) {
+  for (const CurvePoint& point : w.summaries.curve) {
     Json one = Json::object();
     one["time_s"] = point.time_s;
     one["people"] = point.present;
     one["reading"] = point.reading;
     one["undecided"] = point.undecided;
+    one["reading_share"] = json_or_null(point.reading_share());
     out["curve"].push_back(std::move(one));
   }
   return out;
 }
 
 Result<void> write_levels(const std::filesystem::path& folder, const WalkToWrite& w) {
-  std::vector<double> floors;
-  for (const PlanLevel& level : w.levels) floors.push_back(level.floor_m);
-  const auto counts = floor_counts(floors, w.people, w.walk.walks, w.options.step_s);
+  const auto counts = floor_counts(w.levels, w.people, w.walk.walks, w.options.step_s);
   std::vector<std::vector<const WalkedPerson*>> begun(w.levels.size());
   for (const WalkedPerson& walked : w.walk.walks) {
     const PlacedPerson& one = w.people[walked.person];
-    begun[level_below(floors, walked.steps.front().eye.z - one.eye_height_m)].push_back(&walked);
+    begun[level_of(w.levels, walked.steps.front().eye.z - one.eye_height_m)].push_back(&walked);
   }
   const auto maps = level_files("map", w.levels.size()),
              animations = level_files("animation", w.levels.size());
@@ -190,14 +195,13 @@ std::vector<std::string> level_files(const std::string& what, size_t levels) {
 }
 
 Result<void> write_walk(const std::filesystem::path& folder, const WalkToWrite& walk) {
-  const auto curve = curve_of(walk.walk.walks, walk.options.step_s);
   if (auto ok = write_csv(folder / "people.csv", people_csv(walk)); !ok) return ok;
   if (auto ok = write_csv(folder / "signs.csv", signs_csv(walk)); !ok) return ok;
   if (auto ok = write_csv(folder / "steps.csv", steps_csv(walk)); !ok) return ok;
-  if (auto ok = write_csv(folder / "curve.csv", curve_csv(curve)); !ok) return ok;
-  if (auto ok = write_svg_plot(folder / "curve.svg", curve_plot(walk, curve)); !ok) return ok;
+  if (auto ok = write_csv(folder / "curve.csv", curve_csv(walk.summaries.curve)); !ok) return ok;
+  if (auto ok = write_svg_plot(folder / "curve.svg", curve_plot(walk)); !ok) return ok;
   if (auto ok = write_levels(folder, walk); !ok) return ok;
-  return write_json(folder / "walk.json", walk_json(walk, curve));
+  return write_json(folder / "walk.json", walk_json(walk));
 }
 
 }  // namespace luxodus

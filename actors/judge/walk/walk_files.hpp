@@ -19,6 +19,7 @@ struct WalkToWrite {
   const std::vector<PlacedPerson>& people;
   const WalkOptions& options;
   const WalkOfScene& walk;
+  const WalkSummaries& summaries;  // of this walk
   std::vector<PlanLevel> levels;   // with their walls, from below; at least one
   std::vector<std::string> forms;  // of the files of trajectories, by group
   std::string version;             // of this program

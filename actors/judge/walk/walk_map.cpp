@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "actors/judge/report/svg_sheet.hpp"
+#include "actors/judge/report/plan_parts.hpp"
 #include "actors/judge/walk/walk_files.hpp"
 
 namespace luxodus {
@@ -40,20 +40,10 @@ const char* colour_of(const WalkStep& step) {
   return step.count(SignAnswer::undecided) > 0 ? undecided_colour : unread_colour;
 }
 
-/// Radius of a person in the animation [m]; seconds of the clock in a second of it.
-constexpr double person_m = 0.25, played_times = 4;
+/// Seconds of the clock in a second of the animation.
+constexpr double played_times = 4;
 /// Height of the line that shows the time [mm].
 constexpr double clock_mm = 1;
-
-std::string lines_of(const Sheet& sheet, const std::vector<DrawnLine>& lines, const char* colour,
-                     double width_mm) {
-  std::string path;
-  for (const auto& [a, b] : lines)
-    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(a.x), sheet.y(a.y), sheet.x(b.x),
-                        sheet.y(b.y));
-  return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" fill=\"none\"/>\n", path,
-                     colour, width_mm);
-}
 
 std::string symbol(const char* colour) {
   return fmt::format("<rect x=\"0\" y=\"-1.5\" width=\"3\" height=\"3\" fill=\"{}\"/>", colour);
@@ -81,19 +71,6 @@ class DrawnBox {
  private:
   glm::dvec2 low_{1e300}, high_{-1e300};
 };
-
-/// `below`: under the walls; `above`: over them.
-std::string drawing_of(const Sheet& sheet, const PlanLevel& level, const Legend& legend,
-                       const std::string& below, const std::string& above) {
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.2f} {1:.2f}\" "
-             "width=\"{0:.2f}mm\" height=\"{1:.2f}mm\" font-family=\"sans-serif\">\n"
-             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-             sheet.width(), sheet.height() + sheet.foot()) +
-         below + lines_of(sheet, level.furniture, "#9aa0a6", 0.12) +
-         lines_of(sheet, level.walls, "#222", 0.25) + above +
-         legend.svg(sheet.width(), sheet.height()) + "</svg>\n";
-}
 
 /// The times of an animation as shares of it.
 struct PlayedTime {
@@ -159,15 +136,15 @@ std::string walk_map(const PlanLevel& level, const FloorCount& counts) {
   }
   const Sheet sheet = box.sheet(legend);
   std::string cells;
-  for (const auto& [cell, count] : counts) {
+  for (const auto& [cell, unread_s] : counts) {
     const glm::dvec2 low = counted_cell_m * glm::dvec2(cell.first, cell.second);
     cells += fmt::format(
         "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\" "
         "shape-rendering=\"crispEdges\"/>\n",
         sheet.x(low.x), sheet.y(low.y + counted_cell_m), sheet.mm(counted_cell_m),
-        sheet.mm(counted_cell_m), class_of(count.unread_s).colour);
+        sheet.mm(counted_cell_m), class_of(unread_s).colour);
   }
-  return drawing_of(sheet, level, legend, cells, "");
+  return finished(sheet, legend, cells + building(level, sheet)).svg;
 }
 
 std::string walk_animation(const PlanLevel& level, const std::vector<const WalkedPerson*>& walks,
@@ -187,7 +164,7 @@ std::string walk_animation(const PlanLevel& level, const std::vector<const Walke
   std::string people;
   for (const WalkedPerson* walked : walks) {
     const PersonTrack track = track_of(*walked, sheet, time, step_s);
-    people += fmt::format("<circle r=\"{:.2f}\">", sheet.mm(person_m)) +
+    people += fmt::format("<circle r=\"{:.2f}\">", sheet.mm(body_radius_m)) +
               time.animate("cx", track.shares, track.x, false) +
               time.animate("cy", track.shares, track.y, false) +
               time.animate("fill", track.shares, track.colours, true) +
@@ -199,7 +176,7 @@ std::string walk_animation(const PlanLevel& level, const std::vector<const Walke
                   time.animate("width", "0;1", fmt::format("0;{:.2f}", sheet.width()), false));
   people += text_at(border_mm, sheet.height() - 2 * clock_mm,
                     fmt::format("{:g} to {:g} s", time.from_s, time.to_s));
-  return drawing_of(sheet, level, legend, "", people);
+  return finished(sheet, legend, building(level, sheet) + people).svg;
 }
 
 }  // namespace luxodus

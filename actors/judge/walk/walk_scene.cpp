@@ -71,6 +71,8 @@ class SceneWalk {
     if (scene.signs.empty())
       return problem_in(scene.file, "there is no sign in this scene that people could read");
     if (auto ok = check_times(request_); !ok) return ok.problem();
+    if (auto ok = check_steps(request_.people, request_.walk.step_s, scene.file); !ok)
+      return ok.problem();
     const auto walls =
         check_walls(scene, scenario.value(), request_.people, request_.options.threads);
     if (!walls) return walls.problem();
@@ -79,11 +81,6 @@ class SceneWalk {
     if (request_.states.times_s.size() > 1) out_.times_s = request_.states.times_s;
     out_.walks = begin_walks(request_.people, request_.walk);
     eyes_ = eyes_of(out_.walks);
-    if (eyes_.size() > limits::walk_steps)
-      return problem_in(scene.file,
-                        fmt::format("the people take {} steps of {:g} s; at most {} are followed: "
-                                    "choose a longer --step",
-                                    eyes_.size(), request_.walk.step_s, limits::walk_steps));
     if (auto ok = find_answers(); !ok) return ok.problem();
     if (auto ok = measure_smoke(); !ok) return ok.problem();
     look(scene, request_.people, request_.walk, found_, failure_of(scene, scenario.value()),

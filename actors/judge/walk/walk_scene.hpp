@@ -28,8 +28,8 @@ struct WalkOfScene {
   double sure_errors = 0;  // as in SignEstimates; the largest of all groups
 };
 
-/// Errors: a person at a time outside of the states; more steps than limits::walk_steps; as
-/// check_walls and SignEstimates::make; a scene without signs; `interrupt`.
+/// Errors: a person at a time outside of the states; as check_steps, check_walls and
+/// SignEstimates::make; a scene without signs; `interrupt`.
 Result<WalkOfScene> walk_scene(const WalkRequest& request, const std::atomic<bool>& interrupt,
                                const AssessProgress& progress);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "actors/judge/assess/plan_cut.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -16,7 +18,6 @@ bool is_undecided(const WalkStep& step) {
 
 PersonSummary summary_of(const WalkedPerson& walked, double step_s) {
   PersonSummary out;
-  out.person = walked.person;
   out.from_s = walked.steps.front().time_s;
   out.to_s = walked.steps.back().time_s;
   std::set<uint32_t> read;
@@ -57,8 +58,9 @@ std::vector<SignSummary> sign_summaries(size_t signs, const std::vector<WalkedPe
   return out;
 }
 
-double CurvePoint::reading_share() const {
-  return present == 0 ? 0 : static_cast<double>(reading) / static_cast<double>(present);
+std::optional<double> CurvePoint::reading_share() const {
+  if (present == 0) return std::nullopt;
+  return static_cast<double>(reading) / static_cast<double>(present);
 }
 
 std::vector<CurvePoint> curve_of(const std::vector<WalkedPerson>& walks, double step_s) {
@@ -79,26 +81,23 @@ std::vector<CurvePoint> curve_of(const std::vector<WalkedPerson>& walks, double 
   return out;
 }
 
-size_t level_below(const std::vector<double>& floors, double foot_m) {
-  constexpr double above_m = 0.5;
-  size_t out = 0;
-  for (size_t i = 0; i < floors.size(); ++i)
-    if (floors[i] <= foot_m + above_m) out = i;
+WalkSummaries summaries_of(size_t signs, const std::vector<WalkedPerson>& walks, double step_s) {
+  WalkSummaries out{{}, sign_summaries(signs, walks, step_s), curve_of(walks, step_s)};
+  for (const WalkedPerson& walked : walks) out.people.push_back(summary_of(walked, step_s));
   return out;
 }
 
-std::vector<FloorCount> floor_counts(const std::vector<double>& levels,
+std::vector<FloorCount> floor_counts(const std::vector<PlanLevel>& levels,
                                      const std::vector<PlacedPerson>& people,
                                      const std::vector<WalkedPerson>& walks, double step_s) {
-  std::vector<FloorCount> out(std::max<size_t>(levels.size(), 1));
+  std::vector<FloorCount> out(levels.size());
   for (const WalkedPerson& walked : walks)
     for (const WalkStep& step : walked.steps) {
       const double foot_m = step.eye.z - people[walked.person].eye_height_m;
-      CellCount& cell = out[level_below(levels, foot_m)]
-                           [{static_cast<int>(std::floor(step.eye.x / counted_cell_m)),
-                             static_cast<int>(std::floor(step.eye.y / counted_cell_m))}];
-      cell.all_s += step_s;
-      if (!step.reads()) cell.unread_s += step_s;
+      double& unread_s = out[level_of(levels, foot_m)]
+                            [{static_cast<int>(std::floor(step.eye.x / counted_cell_m)),
+                              static_cast<int>(std::floor(step.eye.y / counted_cell_m))}];
+      if (!step.reads()) unread_s += step_s;
     }
   return out;
 }

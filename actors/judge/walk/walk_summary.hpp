@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "actors/judge/record/plan_record.hpp"
 #include "actors/judge/walk/follow.hpp"
 
 namespace luxodus {
 
 struct PersonSummary {
-  size_t person = 0;  // of the placed people
   double from_s = 0, to_s = 0;
   double read_s = 0, undecided_s = 0, unread_s = 0;  // with a sign read; perhaps; surely without
   double longest_unread_s = 0;                       // longest time without a sign read
@@ -38,23 +38,27 @@ std::vector<SignSummary> sign_summaries(size_t signs, const std::vector<WalkedPe
 struct CurvePoint {
   double time_s = 0;
   size_t present = 0, reading = 0, undecided = 0;
-  double reading_share() const;
+  std::optional<double> reading_share() const;  // none if nobody is there
 };
-/// At all steps between the first and the last at which anybody is there.
+/// At all steps between the first and the last at which anybody is there. Requires: check_steps.
 std::vector<CurvePoint> curve_of(const std::vector<WalkedPerson>& walks, double step_s);
+
+/// All of it.
+struct WalkSummaries {
+  std::vector<PersonSummary> people;  // in the order of the walks
+  std::vector<SignSummary> signs;     // in the order of the scene
+  std::vector<CurvePoint> curve;
+};
+/// `signs`: of the scene.
+WalkSummaries summaries_of(size_t signs, const std::vector<WalkedPerson>& walks, double step_s);
 
 /// Edge of a cell of the floor on which people are counted [m].
 inline constexpr double counted_cell_m = 0.5;
-/// Person-seconds in a cell: all, and those without a sign read.
-struct CellCount {
-  double all_s = 0, unread_s = 0;
-};
-/// The highest of these floors, from below, that is at most half a metre above a foot; else the
-/// lowest.
-size_t level_below(const std::vector<double>& floors, double foot_m);
-/// By column and row of the cell, counted from the origin of the scene, on one level.
-using FloorCount = std::map<std::pair<int, int>, CellCount>;
-std::vector<FloorCount> floor_counts(const std::vector<double>& levels,
+/// Person-seconds without a sign read, of each cell in which somebody was: by its column and row,
+/// counted from the origin of the scene, on one level.
+using FloorCount = std::map<std::pair<int, int>, double>;
+/// For each level. Requires: at least one level.
+std::vector<FloorCount> floor_counts(const std::vector<PlanLevel>& levels,
                                      const std::vector<PlacedPerson>& people,
                                      const std::vector<WalkedPerson>& walks, double step_s);
 

@@ -29,12 +29,11 @@ std::vector<Step> steps_of(const std::vector<PlacedPerson>& people) {
   std::vector<Step> out;
   double seconds = 0;
   for (const PlacedPerson& one : people) seconds += one.times_s.back() - one.times_s.front();
-  const double apart_s =
-      std::max(step_s, seconds / static_cast<double>(limits::wall_steps)) / step_s;
+  const double apart_s = std::max(step_s, seconds / static_cast<double>(limits::wall_steps));
   for (size_t p = 0; p < people.size(); ++p) {
     const auto& t = people[p].times_s;
     if (t.size() == 1) out.push_back({p, t.front(), t.front()});
-    for (double at = t.front(); at < t.back(); at += step_s * apart_s)
+    for (double at = t.front(); at < t.back(); at += apart_s)
       out.push_back({p, at, std::min(at + step_s, t.back())});
   }
   return out;

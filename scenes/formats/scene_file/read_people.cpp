@@ -28,12 +28,13 @@ void read_people(const toml::Table& table, SceneReading& reading) {
   out.turn_deg = keys.number("turn_deg");
   out.shift = keys.point("shift");
   out.time_shift_s = keys.number("time_shift_s");
-  out.floor_m = keys.number("floor_m");
+  const double floor_m = keys.number("floor_m");
+  if (keys.has("floor_m")) out.floor_m = floor_m;
   out.eye_height_m = keys.maybe_number("eye_height_m");
   out.luminance_before_cd_m2 = keys.maybe_number("luminance_before");
   for (const toml::Table* storey : keys.tables("storey"))
     out.storeys.push_back(read_storey(*storey, reading));
-  if (keys.has("floor_m") && !out.storeys.empty())
+  if (out.floor_m && !out.storeys.empty())
     return keys.problem("floor_m",
                         "'floor_m' and [[people.storey]] exclude each other: each storey has its "
                         "own floor_m");

@@ -2,9 +2,8 @@
 //
 //   archive, older JuPedSim   attribute fps of the table; geometry in wkt_geometry of the root; z,
 //                             where it is there, is the height of a head
-//   JuPedSim, schema 2        attributes dt, every_nth_frame and schema_version of the root, no
-//   fps;
-//                             z is the floor's height; compressed by Zstandard, a filter that
+//   JuPedSim, schema 2        attributes dt, every_nth_frame and schema_version of the root, but no
+//                             fps; z is the floor's height; compressed by Zstandard, a filter that
 //                             libhdf5 does not bring
 //
 // The library reads other files and loads code as a file tells it (external links and storage,
@@ -87,6 +86,7 @@ struct Hdf5Row {
   int64_t frame, id;
   double x, y, z;
 };
+static_assert(sizeof(Hdf5Row) == 40);  // limits::trajectory_rows
 
 /// What the job answers.
 struct Hdf5Table {
@@ -313,7 +313,6 @@ Result<Trajectories> hdf5_trajectories(const std::string& file) {
   return rows.people_of({.form = has_heights ? "HDF5 of JuPedSim, schema 2" : "HDF5 with fps",
                          .has_heights = has_heights,
                          .fps = fps.value(),
-                         .walkable_wkt = "",
                          .people = {}});
 }
 

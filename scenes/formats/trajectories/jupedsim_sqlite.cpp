@@ -43,7 +43,7 @@ int went_on_too_long(void* questions) noexcept {
 /// Largest values of what SQLite limits at run time.
 void limit(sqlite3* db) {
   constexpr std::array<std::pair<int, int>, 11> values{
-      {{SQLITE_LIMIT_LENGTH, static_cast<int>(limits::trajectory_wkt_bytes)},
+      {{SQLITE_LIMIT_LENGTH, static_cast<int>(limits::trajectory_text_bytes)},
        {SQLITE_LIMIT_SQL_LENGTH, 100'000},
        {SQLITE_LIMIT_COLUMN, 100},
        {SQLITE_LIMIT_EXPR_DEPTH, 10},
@@ -91,9 +91,6 @@ class SqliteReader {
     if (!checked) return checked.problem();
     out.fps = checked.value();
     out.form = fmt::format("SQLite of JuPedSim, version {:g}", version.value());
-    auto wkt = walkable();
-    if (!wkt) return wkt.problem();
-    out.walkable_wkt = std::move(wkt).value();
     return rows(std::move(out), version.value() == 2);
   }
 
@@ -146,7 +143,7 @@ class SqliteReader {
                : std::string(reinterpret_cast<const char*>(text), static_cast<size_t>(size));
   }
 
-  /// Its pages are sound, and what will be read are tables.
+  /// Its pages are sound, and the tables of the form are there.
   Result<void> check() {
     const auto pages = prepare("PRAGMA quick_check(1)");
     if (!pages) return pages.problem();
@@ -176,16 +173,6 @@ class SqliteReader {
     if (!value)
       return bad(fmt::format("\"{}\" in its metadata is no number: {}", key, excerpt(text)));
     return *value;
-  }
-
-  /// The first of the stated areas: others are of later frames, when doors were closed.
-  Result<std::string> walkable() {
-    const auto asked = prepare("SELECT wkt FROM geometry LIMIT 1");
-    if (!asked) return asked.problem();
-    const int step = sqlite3_step(asked->get());
-    if (step == SQLITE_DONE) return std::string();
-    if (step != SQLITE_ROW) return failed("its geometry cannot be read");
-    return text_at(asked->get(), 0);
   }
 
   Result<Trajectories> rows(Trajectories out, bool looks) {

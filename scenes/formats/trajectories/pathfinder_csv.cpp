@@ -120,11 +120,8 @@ Result<Trajectories> pathfinder_csv_trajectories(std::string_view bytes, const s
       if (auto ok = rows.add(*row.value(), number); !ok) return ok.problem();
     }
   }
-  return rows.people_of({.form = "CSV of Pathfinder",
-                         .has_heights = true,
-                         .fps = std::nullopt,
-                         .walkable_wkt = "",
-                         .people = {}});
+  return rows.people_of(
+      {.form = "CSV of Pathfinder", .has_heights = true, .fps = std::nullopt, .people = {}});
 }
 
 }  // namespace luxodus

@@ -78,11 +78,8 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
 
   Result<Trajectories> people() {
     if (problem_) return *problem_;
-    return rows_.people_of({.form = "JSON of Pathfinder",
-                            .has_heights = true,
-                            .fps = std::nullopt,
-                            .walkable_wkt = "",
-                            .people = {}});
+    return rows_.people_of(
+        {.form = "JSON of Pathfinder", .has_heights = true, .fps = std::nullopt, .people = {}});
   }
 
  private:

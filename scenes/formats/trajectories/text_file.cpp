@@ -167,7 +167,6 @@ Result<Trajectories> text_trajectories(std::string_view bytes, const std::string
   return rows.people_of({.form = "text with a header, as of PeTrack",
                          .has_heights = false,
                          .fps = header.fps,
-                         .walkable_wkt = "",
                          .people = {}});
 }
 

@@ -2,6 +2,10 @@
 #include "scenes/formats/trajectories/trajectories.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 
 #include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -15,6 +19,16 @@ namespace {
 constexpr std::string_view sqlite_magic{"SQLite format 3\0", 16};
 constexpr std::string_view hdf5_magic = "\x89HDF\r\n\x1a\n";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// Whether a file begins as HDF5 does, whose own process reads all of it.
+Result<bool> begins_as_hdf5(const std::filesystem::path& file) {
+  const auto opened = open_regular_file(file);
+  if (!opened) return opened.problem();
+  std::array<char, hdf5_magic.size()> first{};
+  const ssize_t got = ::read(opened->descriptor.number(), first.data(), first.size());
+  if (got < 0) return system_problem(file, "this file cannot be read", errno);
+  return std::string_view(first.data(), static_cast<size_t>(got)) == hdf5_magic;
+}
 
 }  // namespace
 
@@ -39,6 +53,9 @@ Result<Trajectories> trajectories_of(std::string_view bytes, const std::filesyst
 }
 
 Result<Trajectories> read_trajectories(const std::filesystem::path& file) {
+  const auto is_hdf5 = begins_as_hdf5(file);
+  if (!is_hdf5) return is_hdf5.problem();
+  if (is_hdf5.value()) return hdf5_trajectories(file.string());
   const auto bytes = read_regular_file(file, limits::trajectory_file_bytes);
   if (!bytes) return bytes.problem();
   return trajectories_of(bytes.value(), file);

@@ -21,15 +21,16 @@ namespace luxodus {
 namespace limits {
 /// Size of a file of trajectories [bytes]; it is held in memory while it is read.
 inline constexpr uint64_t trajectory_file_bytes = uint64_t{1} << 30;
-/// Places of all people together; each takes 40 bytes.
+/// Places of all people together. Each takes 56 bytes while rows are ordered, and of HDF5 40 more;
+/// then 32, or 48 with a direction.
 inline constexpr size_t trajectory_rows = 10'000'000;
 inline constexpr size_t trajectory_people = 100'000;
 /// Frames per second.
 inline constexpr double trajectory_fps = 1000;
 /// Largest coordinate [m] and time [s].
 inline constexpr double trajectory_m = 1e7, trajectory_s = 1e7;
-/// Length of a stated walkable area [bytes].
-inline constexpr size_t trajectory_wkt_bytes = size_t{16} << 20;
+/// Length of a text or row in SQLite [bytes].
+inline constexpr size_t trajectory_text_bytes = size_t{16} << 20;
 }  // namespace limits
 
 /// One person's way.
@@ -45,7 +46,6 @@ struct Trajectories {
   std::string form;                // "SQLite of JuPedSim, version 2"
   bool has_heights = false;        // z is the height of the floor under the person
   std::optional<double> fps;       // frames per second; none where the file states times
-  std::string walkable_wkt;        // of SQLite, in well-known text; "" where not given
   std::vector<Trajectory> people;  // by ascending id, at least one
 };
 
@@ -54,7 +54,8 @@ struct Trajectories {
 /// text and CSV, whose times do not ascend; nobody in the file; more than the limits.
 Result<Trajectories> read_trajectories(const std::filesystem::path& file);
 
-/// Reads the content of a file. `file` names it in messages; HDF5 is read from there again.
+/// Reads the content of a file. `file` names it in messages; HDF5 is read from there, and needs no
+/// more of `bytes` than its first eight.
 Result<Trajectories> trajectories_of(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace luxodus

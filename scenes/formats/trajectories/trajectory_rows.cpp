@@ -47,7 +47,7 @@ Result<void> TrajectoryRows::sort() {
       at->second = rows_[i].time_s;
     }
   }
-  std::stable_sort(rows_.begin(), rows_.end(), [](const TrajectoryRow& a, const TrajectoryRow& b) {
+  std::sort(rows_.begin(), rows_.end(), [](const TrajectoryRow& a, const TrajectoryRow& b) {
     return a.id != b.id ? a.id < b.id : a.time_s < b.time_s;
   });
   return {};

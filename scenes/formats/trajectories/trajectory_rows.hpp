@@ -20,6 +20,7 @@ struct TrajectoryRow {
   glm::dvec3 place{0};
   glm::dvec2 facing{0};  // any length; 0: not given
 };
+static_assert(sizeof(TrajectoryRow) == 56);  // limits::trajectory_rows
 
 class TrajectoryRows {
  public:

@@ -26,7 +26,8 @@ struct PeopleSettings {
   double turn_deg = 0;      // about the file's origin, counter-clockwise seen from above; first
   glm::dvec3 shift{0};      // then added to coordinates; z only where the file has heights
   double time_shift_s = 0;  // added to times
-  double floor_m = 0;       // of the only floor in a file without heights
+  /// Of the only floor in a file without heights; none: 0.
+  std::optional<double> floor_m;
   std::vector<PeopleStorey> storeys;   // in a file without heights; empty: there is one floor
   std::optional<double> eye_height_m;  // above the floor; none: the first one of the assessment
   /// Of the view from which the people come; none: that of the assessment.

@@ -55,13 +55,38 @@ TEST_CASE("a sign is in the field of view within half of it on each side, in pla
 
 TEST_CASE("signs of the routes ahead belong on the way, and without routes all do", "[walk]") {
   auto scene = *described_text(hall_text);
-  const glm::dvec3 foot(5, 3, 0), eye(5, 3, 1.6);
-  CHECK(is_on_way(scene, scene.signs[0], foot, eye));
-  CHECK_FALSE(is_on_way(scene, scene.signs[1], foot, eye));
-  CHECK_FALSE(is_on_way(scene, scene.signs[0], {5, 3, 5}, {5, 3, 6.6}));        // of another storey
-  CHECK_FALSE(is_on_way(scene, scene.signs[0], {20.5, 3, 0}, {20.5, 3, 1.6}));  // from behind
+  const auto lead_past = [&](size_t sign, const glm::dvec3& foot) {
+    const SignView view = view_of_sign(scene.signs[sign], foot + glm::dvec3(0, 0, 1.6));
+    return WaysAhead(scene, foot).lead_past(scene.signs[sign], view);
+  };
+  CHECK(lead_past(0, {5, 3, 0}));
+  CHECK_FALSE(lead_past(1, {5, 3, 0}));
+  CHECK_FALSE(lead_past(0, {5, 3, 5}));     // of another storey
+  CHECK_FALSE(lead_past(0, {20.5, 3, 0}));  // from behind
   scene.routes.clear();
-  CHECK(is_on_way(scene, scene.signs[1], foot, eye));
+  CHECK(lead_past(1, {5, 3, 0}));
+}
+
+TEST_CASE("more steps than the limit are refused before any is made", "[walk]") {
+  PlacedPerson one = walker_from({2, 3, 0}, {7, 3, 0}, 5);
+  CHECK(check_steps({one, one}, 1, "hall.toml").ok());
+  one.times_s = {-1e7, 1e7};
+  CHECK_THAT(check_steps({one}, 1, "hall.toml").problem().text(),
+             Catch::Contains("hall.toml: the people take 20000001 steps of 1 s; at most 1000000"));
+  CHECK(check_steps({one}, 3600, "hall.toml").ok());
+  // Two people of one place each take two steps, and the curve has all the times between them.
+  PlacedPerson early = one, late = one;
+  early.times_s = {-1e7};
+  late.times_s = {1e7};
+  early.feet = late.feet = {{2, 3, 0}};
+  CHECK_THAT(check_steps({early, late}, 1, "hall.toml").problem().text(),
+             Catch::Contains("from -1e+07 to 1e+07 s, more than 1000000 steps of 1 s"));
+  CHECK(check_steps({early, late}, 100, "hall.toml").ok());
+  // Where only their sum is too large.
+  one.times_s = {0, 6e5};
+  CHECK(check_steps({one}, 1, "hall.toml").ok());
+  CHECK_THAT(check_steps({one, one}, 1, "hall.toml").problem().text(),
+             Catch::Contains("the people take 1200002 steps"));
 }
 
 TEST_CASE("each step has its answers, and the time since a sign was read", "[walk]") {

@@ -2,12 +2,23 @@
 // nowhere, and people who walk along it. Any thread.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "actors/judge/walk/placed_people.hpp"
 #include "tests/kit/described.hpp"
 
 namespace luxodus::test {
+
+/// A sign on the east wall.
+inline std::string hall_sign(const std::string& name, double y) {
+  return fmt::format(
+      "\n[[sign]]\nname = \"{}\"\nplain = \"green\"\nsmallest_detail = 0.02\nwidth = 0.4\n"
+      "height = 0.2\nposition = [19.9, {}, 2.3]\nfacing = [-1, 0, 0]\nmains_white = 500\n"
+      "mains_green = 60\nemergency_white = 200\nemergency_green = 30\n",
+      name, y);
+}
 
 /// Walls, floor and ceiling of a box, a partition with a door at x = 10, signs and a route.
 inline const std::string hall_text = R"(
@@ -40,36 +51,10 @@ edge_u = [0, 1, 0]
 edge_v = [0, 0, 2.1]
 material = "grey50"
 door = { hinge = [10, 2.5, 0], open_angle_deg = 90 }
-
-[[sign]]
-name = "exit"
-plain = "green"
-smallest_detail = 0.02
-width = 0.4
-height = 0.2
-position = [19.9, 3, 2.3]
-facing = [-1, 0, 0]
-mains_white = 500
-mains_green = 60
-emergency_white = 200
-emergency_green = 30
-[[sign.leads_to]]
+)" + hall_sign("exit", 3) + R"([[sign.leads_to]]
 route = "out"
 arrow = "ahead"
-
-[[sign]]
-name = "elsewhere"
-plain = "green"
-smallest_detail = 0.02
-width = 0.4
-height = 0.2
-position = [19.9, 1, 2.3]
-facing = [-1, 0, 0]
-mains_white = 500
-mains_green = 60
-emergency_white = 200
-emergency_green = 30
-
+)" + hall_sign("elsewhere", 1) + R"(
 [[route]]
 name = "out"
 path = [[1, 3, 0], [19, 3, 0]]

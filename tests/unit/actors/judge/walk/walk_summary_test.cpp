@@ -64,22 +64,23 @@ TEST_CASE("the curve counts who is there, at gaps nobody", "[walk]") {
   const auto curve = curve_of({walked_person(), later}, 2);
   REQUIRE(curve.size() == 9);  // 2 to 18 s
   CHECK(curve[0].present == 1);
-  CHECK(curve[0].reading_share() == 1);
+  CHECK(curve[0].reading_share() == 1.0);
   CHECK(curve[2].undecided == 1);
   CHECK(curve[4].time_s == 10);
   CHECK(curve[4].present == 0);
-  CHECK(curve[4].reading_share() == 0);
+  CHECK_FALSE(curve[4].reading_share());
 }
 
 TEST_CASE("cells of the floor count person-seconds without a sign read", "[walk]") {
   std::vector<PlacedPerson> people{walker_from({0, 0, 0}, {1, 0, 0}, 8)};
-  const auto counts = floor_counts({0, 3}, people, {walked_person()}, 2);
+  PlanLevel upper;
+  upper.floor_m = 3;
+  const auto counts = floor_counts({{}, upper}, people, {walked_person()}, 2);
   REQUIRE(counts.size() == 2);
   CHECK(counts[1].empty());
   REQUIRE(counts[0].size() == 2);
-  CHECK(counts[0].at({0, 0}).all_s == 4);
-  CHECK(counts[0].at({0, 0}).unread_s == 0);
-  CHECK(counts[0].at({1, 0}).unread_s == 4);
+  CHECK(counts[0].at({0, 0}) == 0);
+  CHECK(counts[0].at({1, 0}) == 4);
   PlanLevel level;
   level.walls = {{{0, 0}, {10, 0}}};
   const std::string svg = walk_map(level, counts[0]);

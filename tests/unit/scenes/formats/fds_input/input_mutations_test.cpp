@@ -2,22 +2,17 @@
 // in bounded time and memory. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS sets how many files
 // are mutated.
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <cstring>
 
 #include "scenes/formats/fds_input/input_building.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/kit/environment_number.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
 
 namespace {
-
-uint64_t said_number(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 /// Every group that is read.
 const std::string whole_input =
@@ -99,10 +94,10 @@ TEST_CASE("mutated input files of FDS are read or rejected with one sentence",
     const auto input = read_fds_input(folder / "case.fds");
     if (!input) FAIL(input.problem().text());
   }
-  Random random(said_number("LUXODUS_SEED", 1), RandomStream::test);
+  Random random(environment_number("LUXODUS_SEED", 1), RandomStream::test);
   random.start(0);
-  INFO("seed " << said_number("LUXODUS_SEED", 1));
-  const uint64_t tries = said_number("LUXODUS_MUTATIONS", 3000);
+  INFO("seed " << environment_number("LUXODUS_SEED", 1));
+  const uint64_t tries = environment_number("LUXODUS_MUTATIONS", 3000);
   uint64_t read = 0;
   for (uint64_t i = 0; i < tries; ++i) {
     const std::string text = harmed_input(whole_input, more, random);

@@ -2,24 +2,19 @@
 // sentence, in bounded memory. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS sets how many
 // files are mutated (a sanitizer build has run 500 000).
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <map>
 
 #include "scenes/formats/fields/fds.hpp"
 #include "scenes/formats/fields/fds_building.hpp"
 #include "scenes/formats/fields/fds_visibility.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/kit/environment_number.hpp"
 #include "tests/kit/small_fire.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
 
 namespace {
-
-uint64_t said_number(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 /// Two meshes, one of them stretched, an obstruction that vanishes, an opening, and every kind of
 /// file.
@@ -116,9 +111,9 @@ TEST_CASE("mutated results of FDS are read or rejected with one sentence", "[for
     names.push_back(name);
     folder.write(name, bytes);
   }
-  Random random(said_number("LUXODUS_SEED", 1), RandomStream::test);
+  Random random(environment_number("LUXODUS_SEED", 1), RandomStream::test);
   random.start(0);
-  INFO("seed " << said_number("LUXODUS_SEED", 1));
+  INFO("seed " << environment_number("LUXODUS_SEED", 1));
   // Each with Smoke3D, which alone has one of the two species.
   const auto with_smoke3d = [](FireSource source) {
     return std::vector<FireSource>{source, FireSource::smoke3d};
@@ -132,7 +127,7 @@ TEST_CASE("mutated results of FDS are read or rejected with one sentence", "[for
                                              with_smoke3d(FireSource::cell_extinction),
                                              {FireSource::smoke3d}};
   uint64_t read = 0;
-  const uint64_t tries = said_number("LUXODUS_MUTATIONS", 3000);
+  const uint64_t tries = environment_number("LUXODUS_MUTATIONS", 3000);
   for (uint64_t i = 0; i < tries; ++i) {
     // Half of the mutations change the index, on which all else depends.
     const std::string name =

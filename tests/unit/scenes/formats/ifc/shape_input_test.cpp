@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "runtime/core/random.hpp"
@@ -13,6 +12,7 @@
 #include "scenes/light/geometry/closed_mesh.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
 #include "scenes/light/geometry/polygon.hpp"
+#include "tests/kit/environment_number.hpp"
 #include "tests/kit/small_ifc.hpp"
 #include "tests/kit/step_text.hpp"
 #include "tests/kit/test_length.hpp"
@@ -21,11 +21,6 @@ using namespace luxodus;
 using namespace luxodus::test;
 
 namespace {
-
-uint64_t asked_number(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 struct Prepared {
   IfcModel model;
@@ -406,8 +401,8 @@ TEST_CASE("swept surfaces are moved by their placement, not by their profile", "
 }
 
 TEST_CASE("mutated models give an input for shapes, or are rejected", "[ifc]") {
-  const uint64_t seed = asked_number("LUXODUS_SEED", 1);
-  const uint64_t tries = asked_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 2'000);
+  const uint64_t seed = environment_number("LUXODUS_SEED", 1);
+  const uint64_t tries = environment_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 2'000);
   INFO("seed " << seed);
   StepText text;
   const std::string roof =

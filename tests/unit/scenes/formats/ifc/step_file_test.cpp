@@ -3,10 +3,10 @@
 #include "scenes/formats/ifc/step_file.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 
 #include "scenes/formats/ifc/ifc_model.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/kit/environment_number.hpp"
 #include "tests/kit/small_ifc.hpp"
 #include "tests/kit/test_length.hpp"
 
@@ -26,11 +26,6 @@ StepFile step_of(const std::string& data) {
 std::vector<StepValue> values(const std::string& brackets) {
   const StepFile file = step_of("#1=IFCX(" + brackets + ");");
   return file.parameters(*file.find(1));
-}
-
-uint64_t said_number(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
 }
 
 }  // namespace
@@ -96,8 +91,8 @@ TEST_CASE("a file that is not an exchange file is rejected with a message", "[if
 }
 
 TEST_CASE("mutated models are read or rejected with one sentence", "[ifc]") {
-  const uint64_t seed = said_number("LUXODUS_SEED", 1);
-  const uint64_t tries = said_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 3'000);
+  const uint64_t seed = environment_number("LUXODUS_SEED", 1);
+  const uint64_t tries = environment_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 3'000);
   INFO("seed " << seed);
   Random random(seed, RandomStream::test);
   random.start(0);

@@ -52,14 +52,12 @@ Result<Trajectories> read_table(const TrajectoryTable& table) {
 
 }  // namespace
 
-TEST_CASE("a database of JuPedSim gives ways, orientations and the walkable area",
-          "[trajectories][sqlite]") {
+TEST_CASE("a database of JuPedSim gives ways and orientations", "[trajectories][sqlite]") {
   const auto read = read_database({});
   has_both_people(read, 0);
   CHECK(read->form == "SQLite of JuPedSim, version 2");
   CHECK(read->fps == 2.0);
   CHECK_FALSE(read->has_heights);
-  CHECK(read->walkable_wkt == "POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))");
   CHECK(read->people[0].facing == std::vector<glm::dvec2>{{1, 0}, {1, 0}});
   CHECK(read->people[1].facing[0] == glm::dvec2(0, 1));  // of length 2 in the file
 }
@@ -125,7 +123,6 @@ TEST_CASE("a table of HDF5 with fps gives ways, and its z is no floor", "[trajec
     has_both_people(read, 0);
     CHECK_FALSE(read->has_heights);
     CHECK(read->fps == 2.0);
-    CHECK(read->walkable_wkt.empty());
   }
   has_both_people(read_table({.geometry = false, .z = false}), 0);
 }
@@ -150,6 +147,25 @@ TEST_CASE("tables of HDF5 that cannot be read, or reach elsewhere, are refused",
   const TemporaryFolder folder;
   refuses(trajectories_of("\x89HDF\r\n\x1a\n", folder.write("a.h5", "\x89HDF\r\n\x1a\n")),
           "the file is damaged");
+}
+
+TEST_CASE("tables of HDF5 that hold fewer rows than they declare are refused",
+          "[trajectories][hdf5]") {
+  refuses(read_table({.filter = H5Z_FILTER_DEFLATE, .declared = 1000}),
+          "\"/trajectory\" declares 1000 rows and holds 6: the file is incomplete");
+  refuses(read_table({.rows_in = RowsIn::nothing}), "declares 5 rows and holds 0");
+  refuses(read_table({.filter = H5Z_FILTER_DEFLATE, .declared = 10'000'001}),
+          "has 10000001 rows; at most 10000000 are read");
+}
+
+TEST_CASE("tables of HDF5 that are stored elsewhere, or in chunks that do not fit, are refused",
+          "[trajectories][hdf5]") {
+  refuses(read_table({.rows_in = RowsIn::another_file}), "is stored outside of the file");
+  refuses(read_table({.rows_in = RowsIn::another_table}), "is stored outside of the file");
+  refuses(read_table({.filter = H5Z_FILTER_NBIT}), "is compressed by filter 5; deflate and");
+  const hsize_t too_many = (hsize_t{64} << 20) / sizeof(TableRow) + 1;
+  refuses(read_table({.filter = H5Z_FILTER_DEFLATE, .chunk = too_many, .rows_in = RowsIn::nothing}),
+          "the chunks of \"/trajectory\" are larger than 64 MiB");
 }
 
 TEST_CASE("text of PeTrack gives ways in the unit of its header", "[trajectories][text]") {

@@ -57,16 +57,25 @@ struct TableRow {
   float x, y, z;
 };
 
+/// Where the rows of a table are.
+enum class RowsIn { this_file, another_file, another_table, nothing };
+
 /// A table of HDF5, with the properties that tests vary.
 struct TrajectoryTable {
   std::vector<TableRow> rows{
       {0, 7, 1, 2, 3}, {0, 3, 5, 2, 0}, {1, 7, 1.5, 2, 3}, {1, 3, 5.5, 2, 0}, {2, 7, 2, 2, 3}};
   bool fps = true, schema = false, geometry = true, z = true;
   double rate = 2;
-  int filter = 0;                     // of a chunked table; 0: in one piece
+  int filter = 0;        // of a chunked table; 0: in one piece
+  hsize_t chunk = 2;     // its rows
+  hsize_t declared = 0;  // rows that a chunked table declares, if more than it holds
+  RowsIn rows_in = RowsIn::this_file;
   const char* linked_from = nullptr;  // another file, to which "/trajectory" is a link
 
   void write(const std::filesystem::path& file) const;
+
+ private:
+  void store(hid_t how, hid_t space, const std::filesystem::path& file) const;
 };
 
 inline void put_number(hid_t object, const char* name, double value) {
@@ -87,6 +96,8 @@ inline void put_text(hid_t object, const char* name, const char* text) {
   H5Sclose(space);
 }
 
+constexpr int zstandard_number = 32015;
+
 /// Packs chunks as the filter of Zstandard does.
 inline size_t pack_chunk(unsigned flags, size_t, const unsigned*, size_t bytes, size_t* held,
                          void** buffer) noexcept {
@@ -100,10 +111,24 @@ inline size_t pack_chunk(unsigned flags, size_t, const unsigned*, size_t bytes, 
   return made;
 }
 
+/// States in the properties of a table how its rows are stored.
+inline void TrajectoryTable::store(hid_t how, hid_t space,
+                                   const std::filesystem::path& file) const {
+  if (rows_in == RowsIn::another_file)
+    H5Pset_external(how, (file.string() + ".rows").c_str(), 0, H5F_UNLIMITED);
+  if (rows_in == RowsIn::another_table) H5Pset_virtual(how, space, "other.h5", "/rows", space);
+  if (filter != 0) H5Pset_chunk(how, 1, &chunk);
+  if (filter == H5Z_FILTER_DEFLATE) H5Pset_deflate(how, 5);
+  if (filter == H5Z_FILTER_NBIT) H5Pset_nbit(how);
+  if (filter == zstandard_number) {
+    H5Pset_shuffle(how);
+    H5Pset_filter(how, zstandard_number, H5Z_FLAG_MANDATORY, 0, nullptr);
+  }
+}
+
 inline void TrajectoryTable::write(const std::filesystem::path& file) const {
-  constexpr int zstandard = 32015;
-  const H5Z_class2_t packing{H5Z_CLASS_T_VERS, zstandard, 1,       0,
-                             "zstd",           nullptr,   nullptr, pack_chunk};
+  const H5Z_class2_t packing{H5Z_CLASS_T_VERS, zstandard_number, 1,       0,
+                             "zstd",           nullptr,          nullptr, pack_chunk};
   const hid_t made = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   REQUIRE(made >= 0);
   if (linked_from != nullptr) {
@@ -117,22 +142,16 @@ inline void TrajectoryTable::write(const std::filesystem::path& file) const {
   H5Tinsert(type, "x", offsetof(TableRow, x), H5T_IEEE_F32LE);
   H5Tinsert(type, "y", offsetof(TableRow, y), H5T_IEEE_F32LE);
   if (z) H5Tinsert(type, "z", offsetof(TableRow, z), H5T_IEEE_F32LE);
-  const hsize_t count = rows.size(), chunk = 2;
-  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hsize_t count = rows.size(), most = filter != 0 ? H5S_UNLIMITED : count;
+  const hid_t space = H5Screate_simple(1, &count, &most);
   const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
-  if (filter != 0) H5Pset_chunk(how, 1, &chunk);
-  if (filter == zstandard) {
-    H5Zregister(&packing);
-    H5Pset_shuffle(how);
-    H5Pset_filter(how, zstandard, H5Z_FLAG_MANDATORY, 0, nullptr);
-  } else if (filter == H5Z_FILTER_DEFLATE) {
-    H5Pset_deflate(how, 5);
-  } else if (filter != 0) {
-    H5Pset_scaleoffset(how, H5Z_SO_INT, 0);
-  }
+  if (filter == zstandard_number) H5Zregister(&packing);
+  store(how, space, file);
   const hid_t table = H5Dcreate2(made, "trajectory", type, space, H5P_DEFAULT, how, H5P_DEFAULT);
   REQUIRE(table >= 0);
-  REQUIRE(H5Dwrite(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0);
+  if (rows_in == RowsIn::this_file || rows_in == RowsIn::another_file)
+    REQUIRE(H5Dwrite(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0);
+  if (declared > 0) REQUIRE(H5Dset_extent(table, &declared) >= 0);
   if (fps) put_number(table, "fps", rate);
   if (schema) {
     put_number(made, "schema_version", 2);
@@ -145,7 +164,7 @@ inline void TrajectoryTable::write(const std::filesystem::path& file) const {
   H5Sclose(space);
   H5Tclose(type);
   H5Fclose(made);
-  if (filter == zstandard) H5Zunregister(zstandard);
+  if (filter == zstandard_number) H5Zunregister(zstandard_number);
 }
 
 inline const std::string petrack_text =

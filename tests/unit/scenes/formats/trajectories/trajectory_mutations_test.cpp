@@ -2,12 +2,12 @@
 // files are mutated. Files of HDF5, which a process each reads, are a tenth of them.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 
 #include "runtime/core/isolated_job.hpp"
 #include "scenes/formats/trajectories/trajectories.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/kit/environment_number.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/formats/trajectories/trajectory_kit.hpp"
 
@@ -15,11 +15,6 @@ using namespace luxodus;
 using namespace luxodus::test;
 
 namespace {
-
-uint64_t stated_number(const char* name, uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 Bytes bytes_of(const std::string& text) {
   const auto* from = reinterpret_cast<const std::byte*>(text.data());
@@ -50,8 +45,8 @@ bool is_sound(const Trajectories& read) {
 
 TEST_CASE("mutated files of trajectories are read or rejected with one sentence",
           "[trajectories]") {
-  const uint64_t seed = stated_number("LUXODUS_SEED", 1);
-  const uint64_t tries = stated_number("LUXODUS_MUTATIONS", 2000);
+  const uint64_t seed = environment_number("LUXODUS_SEED", 1);
+  const uint64_t tries = environment_number("LUXODUS_MUTATIONS", 2000);
   INFO("seed " << seed);
   Random random(seed, RandomStream::test);
   random.start(0);
@@ -80,8 +75,8 @@ TEST_CASE("mutated files of trajectories are read or rejected with one sentence"
 }
 
 TEST_CASE("mutated tables of HDF5 are read or rejected with one sentence", "[trajectories][hdf5]") {
-  const uint64_t seed = stated_number("LUXODUS_SEED", 1);
-  const uint64_t tries = stated_number("LUXODUS_MUTATIONS", 2000) / 10;
+  const uint64_t seed = environment_number("LUXODUS_SEED", 1);
+  const uint64_t tries = environment_number("LUXODUS_MUTATIONS", 2000) / 10;
   INFO("seed " << seed);
   Random random(seed, RandomStream::test);
   random.start(1);
