@@ -84,6 +84,18 @@ const std::vector<Source>& sources() {
   return all;
 }
 
+/// Shell scripts, whether they are there or not.
+std::vector<fs::path> scripts() {
+  std::vector<fs::path> out{root / "setup.sh", root / "run.sh", root / "test.sh",
+                            root / ".ci" / "run", root / ".ci" / "build"};
+  for (const char* folder : {"actors", "scenes", "tests", "findings"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const fs::path& file : files_below(root / folder))
+      if (file.extension() == ".sh") out.push_back(file);
+  }
+  return out;
+}
+
 /// The name between quotes or angle brackets of an include line; "" for other lines.
 std::string included(const std::string& line, char open, char close) {
   std::string_view rest = line;
@@ -383,7 +395,10 @@ TEST_CASE("only the rooms that list a library include it", "[tidy]") {
 
 TEST_CASE("no line is wider than 100 columns, holds a tab, or ends in a blank", "[tidy]") {
   Findings bad;
-  for (const Source& source : sources())
+  std::vector<Source> read = sources();
+  for (const fs::path& script : scripts())
+    read.push_back({fs::relative(script, root).generic_string(), lines_of(script)});
+  for (const Source& source : read)
     for (size_t i = 0; i < source.lines.size(); ++i) {
       const std::string& line = source.lines[i];
       if (columns_of(line) > max_columns)
@@ -641,15 +656,8 @@ TEST_CASE("every file and name in the table of what is where exists", "[tidy]") 
 }
 
 TEST_CASE("every shell script parses and can be run", "[tidy]") {
-  std::vector<fs::path> scripts{root / "setup.sh", root / "run.sh", root / "test.sh",
-                                root / ".ci" / "run", root / ".ci" / "build"};
-  for (const char* folder : {"actors", "scenes", "tests"}) {
-    if (!fs::exists(root / folder)) continue;
-    for (const fs::path& file : files_below(root / folder))
-      if (file.extension() == ".sh") scripts.push_back(file);
-  }
   Findings bad;
-  for (const fs::path& script : scripts) {
+  for (const fs::path& script : scripts()) {
     const std::string name = fs::relative(script, root).generic_string();
     if (!fs::exists(script)) {
       bad.push_back(name + " is missing");

@@ -9,7 +9,8 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 folder=build/times
-touched=(scenes/light/transport/particle.hpp scenes/light/world/description.hpp actors/apps/cli/run_command.cpp)
+touched=(scenes/light/transport/particle.hpp scenes/light/world/description.hpp
+  actors/apps/cli/run_command.cpp)
 with_tests=
 options=()
 for argument in "$@"; do

@@ -70,8 +70,9 @@ for scene in empty_room scenes/library/office_floor.toml; do
   [ -s "result_of_$(basename "$scene" .toml)/flux.lux" ] || fail "no flux file of $scene"
 done
 # A cluster example finds its scene, too.
-env -i HOME="$place" PATH=/usr/bin:/bin "$program" deploy "$usr/share/luxodus/examples/one_host.toml" \
-  --for ssh --out deployed >/dev/null || fail "the example of a cluster cannot be read"
+env -i HOME="$place" PATH=/usr/bin:/bin "$program" deploy \
+  "$usr/share/luxodus/examples/one_host.toml" --for ssh --out deployed >/dev/null ||
+  fail "the example of a cluster cannot be read"
 
 if [[ " ${targets[*]} " == *" luxodus_python "* ]]; then
   echo "what Python imports"
