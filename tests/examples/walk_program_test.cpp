@@ -251,6 +251,27 @@ file = "people.txt"
   CHECK(slurp(walked.place.out / "curve.svg").find("</svg>") != std::string::npos);
 }
 
+TEST_CASE("people followed into the folder of an assessment stand in its report",
+          "[program][walk]") {
+  const SmokyWay scene(
+      "\n[[route]]\nname = \"west\"\npath = [[19, 1.4, 0], [1, 1.4, 0]]\nwidth = 1\n");
+  const fs::path folder = scene.place.out;
+  const Outcome assessed = scene.place.luxodus("assess " + scene.place.scene +
+                                               " --codes-alone --out " + folder.string());
+  INFO(assessed.err);
+  REQUIRE(assessed.code == 0);
+  CHECK_THAT(slurp(folder / "report.html"), !Contains("People followed on their way"));
+  const std::string people = (scene.place.folder / "people.txt").string();
+  const Outcome walked =
+      scene.place.luxodus("walk " + scene.place.scene + " --trajectories " + people +
+                          " --rounds 1 --out " + (folder / "people").string());
+  INFO(walked.err);
+  REQUIRE(walked.code == 0);
+  REQUIRE(scene.place.luxodus("report " + folder.string()).code == 0);
+  CHECK_THAT(slurp(folder / "report.html"),
+             Contains("People followed on their way") && Contains("2 people were followed"));
+}
+
 TEST_CASE("people who cannot be where the file says are one clear error", "[program][walk]") {
   const SmokyWay scene;
   const auto refused = [&](const std::string& text, const std::string& words) {
@@ -283,19 +304,42 @@ TEST_CASE("a time outside of the scene's clock is an error that says what to sta
                  Contains("time_shift_s"));
 }
 
-TEST_CASE("people become bodies in scenes for pictures", "[program][walk]") {
-  const SmokyWay scene;
-  const std::string people = (scene.place.folder / "people.txt").string();
-  const Outcome run = scene.walk("--trajectories " + people + " --step 8 --figures 3s,16.5s");
-  INFO(run.err);
-  REQUIRE(run.code == 0);
-  const std::string three = slurp(scene.place.out / "figures/3s.toml");
-  CHECK_THAT(three, Contains("name = \"people 2 head\"") && Contains("[16.5000, 1.4000, 1.6000]"));
-  CHECK(slurp(scene.place.out / "figures/16.5s.toml").find("[[object]]") == std::string::npos);
-  const Outcome checked =
-      scene.place.luxodus("check " + (scene.place.out / "figures/3s.toml").string());
-  INFO(checked.err);
-  CHECK(checked.code == 0);
+TEST_CASE("people stand as bodies where they are at a time, if the scene says so",
+          "[program][walk]") {
+  const SmokyWay scene("\n[time]\nfrom = 0\nto = 20\nstep = 5\nmains_fail_at = 0\n",
+                       "seconds_after_failure = 60\n");
+  const std::string film =
+      scene.place.folder
+          .write("film.toml",
+                 "include = [\"corridor.toml\"]\npeople_as_bodies = true\n"
+                 "[[people]]\nname = \"guests\"\nfile = \"people.txt\"\n"
+                 "[[observer]]\nname = \"behind both\"\neye = [19.7, 1.4, 1.6]\n"
+                 "target = [0.02, 1.4, 1.6]\n")
+          .string();
+  const auto lit = [&](const std::string& at) {
+    const Outcome run =
+        scene.place.luxodus("run " + film + " --at " + at + " --particles 20k --no-views --out " +
+                            scene.place.out.string() + at);
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    return nlohmann::json::parse(slurp(scene.place.out.string() + at + "/result.json"));
+  };
+  const auto three = lit("3s"), later = lit("19s");
+  CHECK(three["scene_hash"] != later["scene_hash"]);
+  CHECK(three.dump().find("guests 2 head") != std::string::npos);
+  CHECK(later.dump().find("guests 2 head") == std::string::npos);
+  const auto refused = [&](const std::string& words, const std::string& why) {
+    const Outcome run = scene.place.luxodus(words);
+    INFO(run.err);
+    CHECK(run.code == 2);
+    CHECK_THAT(run.err, Contains(why));
+  };
+  refused("walk " + film, "would look through their own heads");
+  const std::string nobody = scene.place.folder.write(
+      "nobody.toml", "include = [\"corridor.toml\"]\npeople_as_bodies = true\n");
+  refused("check " + nobody, "needs [[people]]");
+  scene.place.folder.write("people.txt", "no header");
+  refused("check " + film, "people.txt");
 }
 
 TEST_CASE("smoke between two states is linear, and groups come from their own light",

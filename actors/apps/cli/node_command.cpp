@@ -104,8 +104,7 @@ NodeWork work_of_states(StateMaker& states) {
 Result<ExitCode> view_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const auto& scene = base.scene().description;
-  const SceneAtTime scene_at =
-      reader_of_times(cluster.run.scene.string(), *scene, FireFrames::between);
+  const SceneAtTime scene_at = times_of_view(cluster.run.scene.string(), *scene);
   LiveStates states(scene, scene_at);
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,

@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "actors/apps/cli/load_scene.hpp"
 #include "actors/apps/cli/signals.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/http/served_names.hpp"
 
 namespace luxodus::cli {
@@ -47,6 +49,12 @@ Result<void> can_save_in(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+SceneAtTime times_of_view(const std::string& file, const SceneDescription& scene) {
+  if (!scene.people_are_bodies) return reader_of_times(file, scene, FireFrames::between);
+  log_info("people stand as bodies: the view shows one time, which --at chooses");
+  return {};
+}
 
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
                         const HubOptions& options, const std::function<Result<void>()>& goes_on) {

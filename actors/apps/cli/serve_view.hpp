@@ -7,6 +7,10 @@
 
 namespace luxodus::cli {
 
+/// Reads the states of a live view at other times. Empty for a scene without a clock, and where
+/// people stand as bodies: the page has the surfaces of one state.
+SceneAtTime times_of_view(const std::string& file, const SceneDescription& scene);
+
 /// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
 /// `goes_on`: an error where whoever traces cannot, which ends the view. Errors: that; a pack; an
 /// address that is none, a port that is taken; a folder that nothing can be saved in.

@@ -52,7 +52,7 @@ Result<ExitCode> view(const ViewOptions& options) {
   if (const auto refused = refused_by_inspection(scene, {found.value()}, options.live.threads))
     return exit_code_of(*refused);
   install_interrupt_handler();
-  const SceneAtTime scene_at = reader_of_times(wanted->scene_file, *scene, FireFrames::between);
+  const SceneAtTime scene_at = times_of_view(wanted->scene_file, *scene);
   LiveStates states(scene, scene_at);
   std::unique_ptr<ProcessExecutor> nodes;  // outlives all users of its executor
   HubOptions hub{options.live, {}, options.save_folder};

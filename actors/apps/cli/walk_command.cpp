@@ -12,7 +12,6 @@
 #include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/signals.hpp"
 #include "actors/apps/cli/version.hpp"
-#include "actors/apps/cli/walk_figures.hpp"
 #include "actors/cast/process/in_process.hpp"
 #include "actors/judge/assess/plan_cut.hpp"
 #include "actors/judge/walk/walk_files.hpp"
@@ -33,7 +32,7 @@ struct WalkCommandOptions {
   std::string place = "known";
   WalkOptions walk;
   int nodes = 0;
-  std::vector<std::string> at, figures;
+  std::vector<std::string> at;
 };
 
 /// The people of the scene, or those of the named file by the only [[people]] of the scene.
@@ -77,31 +76,11 @@ Result<AllPeople> read_all_people(const std::vector<PeopleSettings>& groups,
   return out;
 }
 
-/// Writes a scene with people as bodies for each time.
-Result<void> write_figures(const fs::path& folder, const std::string& scene,
-                           const std::vector<PlacedPerson>& people,
-                           const std::vector<double>& times_s) {
-  if (times_s.empty()) return {};
-  std::error_code failed;
-  fs::create_directories(folder / "figures", failed);
-  if (failed) return system_problem(folder / "figures", "cannot make this folder", failed.value());
-  for (const double time_s : times_s)
-    if (auto ok = write_file_atomically(folder / figures_file(time_s),
-                                        figures_scene(scene, people, time_s));
-        !ok)
-      return ok;
-  return {};
-}
-
 /// Warns of signs about which nothing is known wherever people could look at them.
-void warn_of_undecided(const SceneDescription& scene, const std::vector<SignSummary>& signs) {
+void warn_of_undecided(const SceneDescription& scene, const std::vector<PassedSign>& signs) {
   for (size_t i = 0; i < signs.size(); ++i) {
-    const auto seconds = [&](SignAnswer answer) {
-      return signs[i].by_answer_s[static_cast<size_t>(answer)];
-    };
-    const double decided_s =
-        seconds(SignAnswer::read) + seconds(SignAnswer::seen) + seconds(SignAnswer::invisible);
-    if (seconds(SignAnswer::undecided) == 0 || decided_s > 0) continue;
+    const double decided_s = signs[i].read_s + signs[i].seen_s + signs[i].invisible_s;
+    if (signs[i].undecided_s == 0 || decided_s > 0) continue;
     warn(problem_in(scene.signs[i].place,
                     fmt::format("whether people read the sign \"{}\" is undecided wherever they "
                                 "have it in view: luxodus assess says why, from an [[observer]]",
@@ -109,25 +88,17 @@ void warn_of_undecided(const SceneDescription& scene, const std::vector<SignSumm
   }
 }
 
-void print_walk(const WalkOfScene& walk, const std::vector<PersonSummary>& people) {
-  double all_s = 0, read_s = 0, undecided_s = 0, longest_s = 0;
-  size_t never = 0;
-  for (const PersonSummary& s : people) {
-    read_s += s.read_s;
-    undecided_s += s.undecided_s;
-    all_s += s.read_s + s.undecided_s + s.unread_s;
-    longest_s = std::max(longest_s, s.longest_unread_s);
-    never += s.first_read_s ? 0 : 1;
-  }
-  std::printf("scenario %s: %zu people, %.0f person-seconds\n", walk.scenario.c_str(),
-              people.size(), all_s);
-  std::printf("%.2g %% of %zu steps cross walls or begin in solids\n", 100 * walk.walls.share(),
-              walk.walls.steps);
+void print_walk(const WallCheck& walls, const FollowedPeople& followed) {
+  const PeopleTotals totals = totals_of(followed.people);
+  std::printf("scenario %s: %zu people, %.0f person-seconds\n", followed.scenario.c_str(),
+              followed.people.size(), totals.all_s);
+  std::printf("%.2g %% of %zu steps cross walls or begin in solids\n", 100 * walls.share(),
+              walls.steps);
   std::printf("with a sign that is read: %.1f %% of the time; undecided %.1f %%; without %.1f %%\n",
-              100 * read_s / all_s, 100 * undecided_s / all_s,
-              100 * (all_s - read_s - undecided_s) / all_s);
-  std::printf("%zu people never read a sign; the longest time without is %.0f s\n", never,
-              longest_s);
+              100 * totals.read_s / totals.all_s, 100 * totals.undecided_s / totals.all_s,
+              100 * totals.unread_s() / totals.all_s);
+  std::printf("%zu people never read a sign; the longest time without is %.0f s\n", totals.never,
+              totals.longest_unread_s);
 }
 
 Result<ExitCode> walk(const WalkCommandOptions& o) {
@@ -136,6 +107,10 @@ Result<ExitCode> walk(const WalkCommandOptions& o) {
   const AssessedStates states = assessed_states(o.scene, times_asked(o.at));
   const auto& scene = states.last;
   if (!scene) return exit_code_of(states.told);
+  if (scene->people_are_bodies)
+    return problem_in(o.scene,
+                      "people who stand as bodies would look through their own heads: walk the "
+                      "scene without 'people_as_bodies' (--crowd-hides hides signs behind people)");
   if (scene->packed)
     return problem_in(o.scene, "people walk in scene files: a pack does not hold all of them");
   auto people = read_all_people(groups.value(), *scene);
@@ -148,9 +123,6 @@ Result<ExitCode> walk(const WalkCommandOptions& o) {
   OutputPlan plan{walk_files, {}};
   for (const char* what : {"map", "animation"})
     for (const std::string& file : level_files(what, levels.size())) plan.files.push_back(file);
-  const std::vector<double> figures = times_asked(o.figures);
-  if (!figures.empty()) plan.folders.push_back("figures");
-  for (const double time_s : figures) plan.files.push_back(figures_file(time_s));
   const auto out = OutputFolder::claim(folder, plan);
   if (!out) return out.problem();
   install_interrupt_handler();
@@ -171,29 +143,14 @@ Result<ExitCode> walk(const WalkCommandOptions& o) {
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  const WalkSummaries summaries =
-      summaries_of(scene->signs.size(), walked->walks, request.walk.step_s);
-  if (auto ok = write_walk(out->path(), {*scene, request.people, request.walk, walked.value(),
-                                         summaries, levels, people->forms, build.version});
-      !ok)
-    return ok.problem();
-  if (auto ok = write_figures(out->path(), o.scene, request.people, figures); !ok)
-    return ok.problem();
-  print_walk(walked.value(), summaries.people);
-  warn_of_undecided(*scene, summaries.signs);
+  const WalkToWrite written{*scene, request.people, request.walk, walked.value(),
+                            levels, people->forms,  build.version};
+  const FollowedPeople followed = record_of(written);
+  if (auto ok = write_walk(out->path(), written, followed); !ok) return ok.problem();
+  print_walk(walked->walls, followed);
+  warn_of_undecided(*scene, followed.signs);
   std::printf("written to %s\n", out->named().string().c_str());
   return ExitCode::success;
-}
-
-/// Times at which people become bodies.
-Option figures_option(std::vector<std::string>& figures) {
-  Option out = times_option(figures);
-  out.name = "--figures";
-  out.meaning =
-      "Times at which people are written as bodies, as scenes for pictures and films, e.g. "
-      "30s,31s,32s";
-  out.traits.otherwise.clear();
-  return out;
 }
 
 }  // namespace
@@ -226,7 +183,6 @@ Command walk_command() {
             "Angle in plan within which people look for signs, half of it on each side [deg]",
             {.range = Range{1, 360}}},
            {"--crowd-hides", &o->walk.crowd_hides, "People who hide signs from those behind them"},
-           figures_option(o->figures),
            place_option(o->place),
            {"--seed", &o->assess.seed, "Seed of the random number generator"},
            threads_option(o->assess.threads),
@@ -236,13 +192,12 @@ Command walk_command() {
           "Reads SQLite and HDF5 of JuPedSim, text of PeTrack, CSV and JSON of Pathfinder. Signs "
           "count that belong on the way (routes of the scene; all signs where it has none). Writes "
           "people.csv, signs.csv, steps.csv, curve.csv, curve.svg, walk.json, maps of where people "
-          "stood without a sign that they read, and animations of them; with --figures scenes in "
-          "which people stand as bodies. It says nothing of heat, gases or the time that is "
-          "available for escape.\n"
+          "stood without a sign that they read, and animations of them. The report of an "
+          "assessment in FOLDER takes in what is written into FOLDER/people. Pictures and films of "
+          "people come from a scene with people_as_bodies = true. It says nothing of heat, gases "
+          "or the time that is available for escape.\n"
           "  luxodus walk office.toml --trajectories jupedsim.sqlite --out out/walk\n"
-          "  luxodus walk office.toml --crowd-hides --step 0.5\n"
-          "  luxodus walk office.toml --figures 30s --out out/walk\n"
-          "  luxodus run out/walk/figures/30s.toml --at 30s --out out/picture",
+          "  luxodus walk office.toml --crowd-hides --step 0.5",
       .run = [o] { return exit_code_of(walk(*o)); }};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/judge/record/people_record.hpp"
 #include "actors/judge/report/eye_pictures.hpp"
 #include "actors/judge/report/schedule.hpp"
 #include "actors/judge/texts/texts.hpp"
@@ -17,6 +18,7 @@ struct PageParts {
   const Schedule& schedule;
   const Texts& texts;
   const std::vector<ReportPicture>& pictures;
+  const std::optional<FollowedPeople>& people;
   double paper_width_mm = 180, paper_height_mm = 257;  // within the margins, portrait
   bool grid_values = false;
 };

@@ -18,7 +18,7 @@ struct Section {
   const char* css_class = "";
 };
 
-constexpr std::array<Section, 17> sections{
+constexpr std::array<Section, 18> sections{
     {{"verdict", "heading.verdict", verdict_section},
      {"plans", "heading.plans", plans_section, "plans"},
      {"rooms", "heading.rooms", rooms_section},
@@ -28,6 +28,7 @@ constexpr std::array<Section, 17> sections{
      {"places", "heading.places", places_section},
      {"sights", "heading.sights", sights_section},
      {"over-time", "heading.over_time", over_time_section, "fresh"},
+     {"people", "heading.people", people_section, "fresh"},
      {"thumb", "heading.thumb", thumb_section},
      {"state", "heading.state", state_section},
      {"inputs", "heading.inputs", inputs_section},
@@ -36,7 +37,7 @@ constexpr std::array<Section, 17> sections{
      {"appendix-checks", "heading.appendix_checks", other_checks_appendix, "fresh"},
      {"appendix-signs", "heading.appendix_signs", signs_appendix, "fresh"},
      {"appendix-clauses", "heading.appendix_clauses", clauses_appendix, "fresh"}}};
-constexpr size_t numbered = 14;  // later sections are appendices
+constexpr size_t numbered = 15;  // later sections are appendices
 
 /// Height of the drawing on the cover.
 constexpr double cover_mm = 76;

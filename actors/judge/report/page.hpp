@@ -38,6 +38,7 @@ std::string observers_note(const PageParts& parts);
 /// Part of sights_section; "" if no thresholds were sought.
 std::string thresholds_table(const PageParts& parts);
 std::string over_time_section(const PageParts& parts);
+std::string people_section(const PageParts& parts);
 std::string thumb_section(const PageParts& parts);
 std::string inputs_section(const PageParts& parts);
 std::string not_assessed_section(const PageParts& parts);

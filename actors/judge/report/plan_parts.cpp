@@ -83,6 +83,28 @@ std::string foot(const AssessmentRecord& a, const Sheet& sheet, const Texts& tex
   return out + "</g>\n";
 }
 
+DrawnBox::DrawnBox(const PlanLevel& level) {
+  for (const auto* lines : {&level.walls, &level.furniture})
+    for (const auto& [from, to] : *lines) {
+      take(from);
+      take(to);
+    }
+}
+
+void DrawnBox::take(const glm::dvec2& place) {
+  low_ = glm::min(low_, place);
+  high_ = glm::max(high_, place);
+}
+
+Sheet DrawnBox::sheet(const PlanSize& size, const Legend& legend) const {
+  if (low_.x > high_.x) return {glm::dvec2(0), glm::dvec2(1), size, legend};
+  return {low_, high_, size, legend};
+}
+
+std::string legend_square(const char* colour) {
+  return fmt::format("<rect x=\"0\" y=\"-1.5\" width=\"3\" height=\"3\" fill=\"{}\"/>", colour);
+}
+
 Plan finished(const Sheet& sheet, const Legend& legend, const std::string& body) {
   Plan plan;
   plan.width_mm = sheet.width();

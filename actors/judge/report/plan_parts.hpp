@@ -42,6 +42,20 @@ std::string luminaire_symbol(double x, double y, bool emergency);
 /// Scale bar in round metres, scale, and north arrow.
 std::string foot(const AssessmentRecord& assessment, const Sheet& sheet, const Texts& texts);
 
+/// A box that holds the walls of a level and more places.
+class DrawnBox {
+ public:
+  explicit DrawnBox(const PlanLevel& level);
+  void take(const glm::dvec2& place);
+  Sheet sheet(const PlanSize& size, const Legend& legend) const;
+
+ private:
+  glm::dvec2 low_{1e300}, high_{-1e300};
+};
+
+/// A filled square for a legend, 3 mm wide.
+std::string legend_square(const char* colour);
+
 /// A drawing on its sheet, with its legend below.
 Plan finished(const Sheet& sheet, const Legend& legend, const std::string& body);
 

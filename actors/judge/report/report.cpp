@@ -99,12 +99,11 @@ std::map<std::string, int> printed_pages(const fs::path& pdf) {
 /// of the report that lies there, such as one in another language, until they turn out to differ:
 /// then it is printed a second time.
 Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
-                          const std::vector<ReportPicture>& pictures,
-                          const ReportOptions& options) {
+                          const Enclosures& enclosures, const ReportOptions& options) {
   const fs::path pdf = folder / "report.pdf";
   const fs::path page = folder / fmt::format(".report.{}.html", ::getpid());
   const auto print = [&](const std::map<std::string, int>& pages) -> Result<void> {
-    const auto written = write_file_atomically(page, report_html(a, pictures, options, pages));
+    const auto written = write_file_atomically(page, report_html(a, enclosures, options, pages));
     return written ? print_pdf(page, pdf) : written;
   };
   const std::map<std::string, int> expected = printed_pages(pdf);
@@ -116,16 +115,28 @@ Result<void> print_report(const fs::path& folder, const AssessmentRecord& a,
   return done;
 }
 
+Result<Enclosures> enclosures_in(const fs::path& folder) {
+  Enclosures out{pictures_in(folder), {}};
+  const fs::path people = folder / "people" / "walk.json";
+  std::error_code none;
+  if (!fs::exists(people, none)) return out;
+  auto read = read_followed_people(people);
+  if (!read) return read.problem();
+  out.people = std::move(read).value();
+  return out;
+}
+
 }  // namespace
 
-std::string report_html(const AssessmentRecord& a, const std::vector<ReportPicture>& pictures,
+std::string report_html(const AssessmentRecord& a, const Enclosures& enclosures,
                         const ReportOptions& options, const std::map<std::string, int>& pages) {
   const Schedule schedule(a);
   const Texts texts(options.language);
   // Margins: 15 mm left and right, 20 mm above and below; on a landscape sheet they are turned.
   const double width = (options.letter ? 215.9 : 210) - 30;
   const double height = (options.letter ? 279.4 : 297) - 30;
-  return report_page({a, schedule, texts, pictures, width, height, options.grid_values},
+  return report_page({a, schedule, texts, enclosures.pictures, enclosures.people, width, height,
+                      options.grid_values},
                      {options.letter, pages});
 }
 
@@ -133,15 +144,17 @@ Result<void> write_report(const fs::path& folder, const AssessmentRecord& a,
                           const ReportOptions& options) {
   const Schedule schedule(a);
   const Texts texts(options.language);
-  const auto pictures = pictures_in(folder);
+  const auto enclosures = enclosures_in(folder);
+  if (!enclosures) return enclosures.problem();
   if (auto ok = write_plans(folder / "plans", a, schedule, texts, options.grid_values); !ok)
     return ok.problem();
   if (auto ok = write_guidance(folder / "plans", a, texts); !ok) return ok.problem();
   if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok) return ok.problem();
-  if (auto ok = write_file_atomically(folder / "report.html", report_html(a, pictures, options));
+  if (auto ok = write_file_atomically(folder / "report.html",
+                                      report_html(a, enclosures.value(), options));
       !ok)
     return ok;
-  return options.pdf ? print_report(folder, a, pictures, options) : Result<void>{};
+  return options.pdf ? print_report(folder, a, enclosures.value(), options) : Result<void>{};
 }
 
 }  // namespace luxodus

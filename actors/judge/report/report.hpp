@@ -16,12 +16,18 @@ struct ReportOptions {
   bool pdf = false;
 };
 
-/// The HTML page only.
-std::string report_html(const AssessmentRecord& assessment,
-                        const std::vector<ReportPicture>& pictures, const ReportOptions& options,
-                        const std::map<std::string, int>& pages = {});
+/// What stands in the folder of an assessment besides it, and comes into its report.
+struct Enclosures {
+  std::vector<ReportPicture> pictures;
+  std::optional<FollowedPeople> people;  // of luxodus walk, in the folder "people"
+};
 
-/// Writes all files of a report. Errors: a file that cannot be written; with `pdf` also a missing
+/// The HTML page only.
+std::string report_html(const AssessmentRecord& assessment, const Enclosures& enclosures,
+                        const ReportOptions& options, const std::map<std::string, int>& pages = {});
+
+/// Writes all files of a report. Errors: people that cannot be read; a file that cannot be written;
+/// with `pdf` also a missing
 /// Chromium (all other files are written).
 Result<void> write_report(const std::filesystem::path& folder, const AssessmentRecord& assessment,
                           const ReportOptions& options);

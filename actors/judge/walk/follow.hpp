@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "actors/judge/visibility_map/sign_estimates.hpp"
-#include "actors/judge/walk/placed_people.hpp"
+#include "scenes/formats/trajectories/placed_people.hpp"
 
 namespace luxodus {
 

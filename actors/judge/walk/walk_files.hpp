@@ -19,7 +19,6 @@ struct WalkToWrite {
   const std::vector<PlacedPerson>& people;
   const WalkOptions& options;
   const WalkOfScene& walk;
-  const WalkSummaries& summaries;  // of this walk
   std::vector<PlanLevel> levels;   // with their walls, from below; at least one
   std::vector<std::string> forms;  // of the files of trajectories, by group
   std::string version;             // of this program
@@ -33,12 +32,11 @@ inline const std::vector<std::string> walk_files{"people.csv", "signs.csv", "ste
 /// that on which he begins.
 std::vector<std::string> level_files(const std::string& what, size_t levels);
 
-/// Errors: as write_file_atomically.
-Result<void> write_walk(const std::filesystem::path& folder, const WalkToWrite& walk);
+FollowedPeople record_of(const WalkToWrite& walk);
 
-/// Where people stood on a level without a sign that they read, over its walls: person-seconds by
-/// colour. An SVG whose unit is 1 mm on paper.
-std::string walk_map(const PlanLevel& level, const FloorCount& counts);
+/// Errors: as write_file_atomically.
+Result<void> write_walk(const std::filesystem::path& folder, const WalkToWrite& walk,
+                        const FollowedPeople& followed);
 
 /// People who walk over the walls of a level, coloured by whether they read a sign, four times as
 /// fast as they walk: an SVG that plays in a browser. Requires: at least one person.

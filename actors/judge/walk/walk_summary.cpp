@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "actors/judge/assess/plan_cut.hpp"
 
@@ -14,10 +16,28 @@ bool is_undecided(const WalkStep& step) {
   return !step.reads() && step.count(SignAnswer::undecided) > 0;
 }
 
+double& seconds_of(PassedSign& sign, SignAnswer answer) {
+  switch (answer) {
+    case SignAnswer::read:
+      return sign.read_s;
+    case SignAnswer::seen:
+      return sign.seen_s;
+    case SignAnswer::invisible:
+      return sign.invisible_s;
+    case SignAnswer::hidden:
+      return sign.hidden_s;
+    case SignAnswer::undecided:
+      break;
+  }
+  return sign.undecided_s;
+}
+
 }  // namespace
 
-PersonSummary summary_of(const WalkedPerson& walked, double step_s) {
-  PersonSummary out;
+FollowedPerson summary_of(const PlacedPerson& person, const WalkedPerson& walked, double step_s) {
+  FollowedPerson out;
+  out.group = person.group;
+  out.id = person.id;
   out.from_s = walked.steps.front().time_s;
   out.to_s = walked.steps.back().time_s;
   std::set<uint32_t> read;
@@ -40,16 +60,17 @@ PersonSummary summary_of(const WalkedPerson& walked, double step_s) {
   return out;
 }
 
-std::vector<SignSummary> sign_summaries(size_t signs, const std::vector<WalkedPerson>& walks,
-                                        double step_s) {
-  std::vector<SignSummary> out(signs);
+std::vector<PassedSign> sign_summaries(const std::vector<Sign>& signs,
+                                       const std::vector<WalkedPerson>& walks, double step_s) {
+  std::vector<PassedSign> out(signs.size());
+  for (size_t i = 0; i < signs.size(); ++i) out[i].name = signs[i].name;
   for (const WalkedPerson& walked : walks) {
     std::set<uint32_t> read;
     for (const WalkStep& step : walked.steps)
       for (const SignOnWay& one : step.signs) {
-        SignSummary& sign = out[one.sign];
+        PassedSign& sign = out[one.sign];
         sign.in_view_s += step_s;
-        sign.by_answer_s[static_cast<size_t>(one.answer)] += step_s;
+        seconds_of(sign, one.answer) += step_s;
         if (one.hidden_by_people) sign.hidden_by_people_s += step_s;
         if (one.answer == SignAnswer::read) read.insert(one.sign);
       }
@@ -58,21 +79,16 @@ std::vector<SignSummary> sign_summaries(size_t signs, const std::vector<WalkedPe
   return out;
 }
 
-std::optional<double> CurvePoint::reading_share() const {
-  if (present == 0) return std::nullopt;
-  return static_cast<double>(reading) / static_cast<double>(present);
-}
-
-std::vector<CurvePoint> curve_of(const std::vector<WalkedPerson>& walks, double step_s) {
-  std::map<int64_t, CurvePoint> points;
+std::vector<PeopleAtTime> curve_of(const std::vector<WalkedPerson>& walks, double step_s) {
+  std::map<int64_t, PeopleAtTime> points;
   for (const WalkedPerson& walked : walks)
     for (const WalkStep& step : walked.steps) {
-      CurvePoint& point = points[std::llround(step.time_s / step_s)];
+      PeopleAtTime& point = points[std::llround(step.time_s / step_s)];
       ++point.present;
       point.reading += step.reads() ? 1 : 0;
       point.undecided += is_undecided(step) ? 1 : 0;
     }
-  std::vector<CurvePoint> out;
+  std::vector<PeopleAtTime> out;
   if (points.empty()) return out;
   for (int64_t k = points.begin()->first; k <= points.rbegin()->first; ++k) {
     out.push_back(points[k]);
@@ -81,24 +97,26 @@ std::vector<CurvePoint> curve_of(const std::vector<WalkedPerson>& walks, double 
   return out;
 }
 
-WalkSummaries summaries_of(size_t signs, const std::vector<WalkedPerson>& walks, double step_s) {
-  WalkSummaries out{{}, sign_summaries(signs, walks, step_s), curve_of(walks, step_s)};
-  for (const WalkedPerson& walked : walks) out.people.push_back(summary_of(walked, step_s));
-  return out;
-}
-
-std::vector<FloorCount> floor_counts(const std::vector<PlanLevel>& levels,
-                                     const std::vector<PlacedPerson>& people,
-                                     const std::vector<WalkedPerson>& walks, double step_s) {
-  std::vector<FloorCount> out(levels.size());
+std::vector<WalkedFloor> walked_floors(const std::vector<PlanLevel>& levels,
+                                       const std::vector<PlacedPerson>& people,
+                                       const std::vector<WalkedPerson>& walks, double step_s) {
+  // By column and row of the cell.
+  std::vector<std::map<std::pair<int, int>, double>> unread_s(levels.size());
   for (const WalkedPerson& walked : walks)
     for (const WalkStep& step : walked.steps) {
       const double foot_m = step.eye.z - people[walked.person].eye_height_m;
-      double& unread_s = out[level_of(levels, foot_m)]
-                            [{static_cast<int>(std::floor(step.eye.x / counted_cell_m)),
-                              static_cast<int>(std::floor(step.eye.y / counted_cell_m))}];
-      if (!step.reads()) unread_s += step_s;
+      double& cell = unread_s[level_of(levels, foot_m)]
+                             [{static_cast<int>(std::floor(step.eye.x / counted_cell_m)),
+                               static_cast<int>(std::floor(step.eye.y / counted_cell_m))}];
+      if (!step.reads()) cell += step_s;
     }
+  std::vector<WalkedFloor> out;
+  for (size_t i = 0; i < levels.size(); ++i) {
+    WalkedFloor floor{levels[i].floor_m, {}};
+    for (const auto& [at, seconds] : unread_s[i])
+      floor.cells.push_back({counted_cell_m * glm::dvec2(at.first, at.second), seconds});
+    out.push_back(std::move(floor));
+  }
   return out;
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "actors/judge/walk/placed_people.hpp"
+#include "scenes/formats/trajectories/placed_people.hpp"
 
 namespace luxodus {
 

@@ -1,5 +1,6 @@
 // Reads whose ways `luxodus walk` follows. The files of trajectories are read by that command: they
-// change no light, and are no part of the scene's hash.
+// change no light, and are no part of the scene's hash, unless people stand as bodies
+// (people_bodies.cpp).
 #include "scenes/formats/scene_file/scene_readers.hpp"
 
 namespace luxodus {

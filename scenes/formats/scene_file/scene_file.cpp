@@ -72,9 +72,9 @@ class Loader {
     documents.push_back(std::move(document));
   }
 
-  /// Parses changes to all that was loaded.
-  void change(std::string_view text) {
-    if (auto document = parse_as(text, named_changes, toml::QuotePolicy::allowed))
+  /// Parses a text that is added to all that was loaded. `name`: in messages.
+  void add(std::string_view text, const std::string& name) {
+    if (auto document = parse_as(text, name, toml::QuotePolicy::allowed))
       documents.push_back(std::move(document));
     else
       reading_.incomplete = true;
@@ -221,6 +221,34 @@ void read_designs(const Documents& documents, SceneReading& reading) {
   complete_design(reading, std::move(design));
 }
 
+/// Adds people as objects where the scene has them stand as bodies. A file's own word replaces that
+/// of its includes.
+void read_bodies_of_people(Loader& loader, SceneReading& reading) {
+  const KeyReader* said = nullptr;
+  for (const auto& d : loader.documents)
+    if (d->keys.has("people_as_bodies")) {
+      reading.scene.people_are_bodies = d->keys.flag("people_as_bodies");
+      said = &d->keys;
+    }
+  if (!reading.scene.people_are_bodies) return;
+  reading.changes_in_time = reading.goes_by_clock = true;
+  const SourcePlace place = said->place("people_as_bodies");
+  if (reading.people.empty())
+    return reading.problem(place, "'people_as_bodies' needs [[people]], which this scene has not");
+  const auto time_s = reading.time_s();
+  if (!time_s)
+    return reading.problem(place,
+                           "'people_as_bodies' needs a time at which they stand: state [time], or "
+                           "give --at");
+  const std::string text = people_as_objects(reading, *time_s);
+  if (text.empty()) return;
+  const size_t first = loader.documents.size();
+  loader.add(text, "people as bodies");
+  for (size_t i = first; i < loader.documents.size(); ++i)
+    for (const toml::Table* object : loader.documents[i]->keys.tables("object"))
+      read_object(*object, reading);
+}
+
 /// Checks that need the whole scene.
 void check_whole(SceneReading& reading) {
   const SceneDescription& s = reading.scene;
@@ -250,7 +278,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   reading.frames = frames;
   Loader loader(reading);
   loader.load(path, {path.string(), 1});
-  if (!changes.empty()) loader.change(changes);
+  if (!changes.empty()) loader.add(changes, named_changes);
   const Documents& documents = loader.documents;
   foresee_files(documents, share);
   read_head(documents, path, reading);
@@ -281,6 +309,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"people", read_people},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
+  read_bodies_of_people(loader, reading);
   check_rooms(reading);
   check_project(reading);
   for (const auto& route : reading.routes_named) reading.require("route", route.name, route.place);

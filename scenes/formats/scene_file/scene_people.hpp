@@ -1,5 +1,6 @@
 // Reads the `[[people]]` of a scene file. They are no part of its description, since light knows
-// nothing of them: a scene with other people is the same scene, with the same hash. Their mistakes
+// nothing of them unless they stand as bodies: without, a scene with other people is the same
+// scene, with the same hash. Their mistakes
 // are reported by read_scene as well. Any thread, one call per scene.
 #pragma once
 

@@ -42,6 +42,9 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
 /// Gives the scene its design, with default types where none are stated.
 void complete_design(SceneReading& reading, DesignSettings design);
 void read_people(const toml::Table& table, SceneReading& reading);
+/// Everybody who is in the building at a time as the text of [[object]] tables; reports files of
+/// trajectories that cannot be read.
+std::string people_as_objects(SceneReading& reading, double time_s);
 void read_time(const toml::Table& table, SceneReading& reading);
 void read_scenario(const toml::Table& table, SceneReading& reading);
 void read_change(const toml::Table& table, SceneReading& reading);

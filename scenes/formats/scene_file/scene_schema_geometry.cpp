@@ -23,6 +23,9 @@ TableSpec scene_keys() {
           {"open_sides", "texts", "", "[]", "west, east, south, north, bottom, top",
            "sides of the bounding box (-x, +x, -y, +y, -z, +z) through which light is meant to "
            "leave: no warning that rooms are not closed there"},
+          {"people_as_bodies", "flag", "", "false", "",
+           "people of `[[people]]` stand as bodies where they are at the time of the state, for "
+           "pictures and films; needs `[time]` or `--at`"},
           {"run", "table", "", "", "", "settings of a run"},
           {"material", "tables", "", "", "", "materials"},
           {"object", "tables", "", "", "", "surfaces written in the file"},

@@ -504,6 +504,7 @@ struct SceneDescription {
   std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs
   std::vector<Side> open_sides;                  // through which light is meant to leave
   std::vector<Scenario> scenarios;               // empty: mains, as described
+  bool people_are_bodies = false;                // so states at other times have other surfaces
   uint64_t content_hash = 0;                     // hash of every file read
   std::shared_ptr<const FilesAsRead> files;      // null in a pack, and in scenes made by programs
   int64_t degenerate_triangles = 0;              // dropped on reading

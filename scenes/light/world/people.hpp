@@ -1,7 +1,7 @@
 // The `[[people]]` tables of a scene: whose ways through the building `luxodus walk` follows, and
-// how the coordinates and times of their files lie in the scene. People are no bodies: light and
-// packs know nothing of them. Plain values in SI units; any thread. docs/guide/people.md explains
-// it.
+// how the coordinates and times of their files lie in the scene. Light and packs know nothing of
+// them, unless the scene has them stand as bodies. Plain values in SI units; any thread.
+// docs/guide/people.md explains it.
 #pragma once
 
 #include <optional>

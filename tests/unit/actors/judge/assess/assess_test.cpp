@@ -225,7 +225,7 @@ TEST_CASE("writing an assessment removes tables of an earlier one that it does n
 TEST_CASE("a report counts checks, and never says that a building complies", "[assess]") {
   AssessOptions options;
   options.rounds = 1;
-  const std::string page = report_html(recorded(room, options), {{"view", "png"}}, {});
+  const std::string page = report_html(recorded(room, options), {{{"view", "png"}}, {}}, {});
   CHECK(page.find(" not assessed") != std::string::npos);
   CHECK(page.find("complies with EN") == std::string::npos);
   CHECK(page.find("http-equiv") == std::string::npos);

@@ -532,7 +532,7 @@ TEST_CASE("a report includes only pictures of its own scene and scenario", "[rep
   folder.write("run/views/south.png", picture("failed"));
   folder.write("run/views/south_human.png", picture("failed"));
   folder.write("run/views/south_luminance.png", picture("failed"));
-  const std::string page = report_html(a, pictures_in(folder / ""), {});
+  const std::string page = report_html(a, {pictures_in(folder / ""), {}}, {});
   const Texts en(Language::en);
   const auto images = [](const std::string& text) {
     size_t count = 0;
@@ -545,7 +545,7 @@ TEST_CASE("a report includes only pictures of its own scene and scenario", "[rep
         page.find("Blick zum Ausgang, Süd: " + std::string(en("view.luminance"))));
   CHECK_FALSE(has(page, en("view.plain")));
   folder.write("run/views/south_human.png", picture("mains"));
-  const std::string mixed = report_html(a, pictures_in(folder / ""), {});
+  const std::string mixed = report_html(a, {pictures_in(folder / ""), {}}, {});
   CHECK(images(mixed) == 1);
   CHECK(has(mixed, en.say("sights.other_pictures", 1)));
 }

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "actors/judge/walk/placed_people.hpp"
+#include "tests/kit/walkers.hpp"
 #include "tests/kit/described.hpp"
 
 namespace luxodus::test {
@@ -64,17 +64,5 @@ width = 1.6
 name = "mains"
 operation = "mains"
 )";
-
-/// Somebody who is at `from` at 0 s and walks at a constant speed to `to`.
-inline PlacedPerson walker_from(const glm::dvec3& from, const glm::dvec3& to, double seconds) {
-  PlacedPerson out;
-  out.group = "people";
-  out.id = 1;
-  out.eye_height_m = 1.6;
-  out.luminance_before_cd_m2 = 100;
-  out.times_s = {0, seconds};
-  out.feet = {from, to};
-  return out;
-}
 
 }  // namespace luxodus::test

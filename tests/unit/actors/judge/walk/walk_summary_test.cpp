@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/judge/report/people_map.hpp"
 #include "actors/judge/walk/walk_files.hpp"
 #include "tests/unit/actors/judge/walk/walk_kit.hpp"
 
@@ -33,7 +34,12 @@ WalkedPerson walked_person() {
 }  // namespace
 
 TEST_CASE("the summary of a person adds up his steps", "[walk]") {
-  const PersonSummary s = summary_of(walked_person(), 2);
+  PlacedPerson placed;
+  placed.group = "guests";
+  placed.id = 4;
+  const FollowedPerson s = summary_of(placed, walked_person(), 2);
+  CHECK(s.group == "guests");
+  CHECK(s.id == 4);
   CHECK(s.from_s == 2);
   CHECK(s.to_s == 8);
   CHECK(s.read_s == 4);
@@ -48,13 +54,18 @@ TEST_CASE("the summary of a person adds up his steps", "[walk]") {
 }
 
 TEST_CASE("the summary of a sign counts person-seconds by answer", "[walk]") {
-  const auto signs = sign_summaries(3, {walked_person(), walked_person()}, 2);
+  std::vector<Sign> three(3);
+  three[0].name = "exit";
+  const auto signs = sign_summaries(three, {walked_person(), walked_person()}, 2);
+  REQUIRE(signs.size() == 3);
+  CHECK(signs[0].name == "exit");
   CHECK(signs[0].in_view_s == 12);
-  CHECK(signs[0].by_answer_s[static_cast<size_t>(SignAnswer::read)] == 8);
-  CHECK(signs[0].by_answer_s[static_cast<size_t>(SignAnswer::hidden)] == 4);
+  CHECK(signs[0].read_s == 8);
+  CHECK(signs[0].hidden_s == 4);
   CHECK(signs[0].hidden_by_people_s == 4);
   CHECK(signs[0].readers == 2);
-  CHECK(signs[1].by_answer_s[static_cast<size_t>(SignAnswer::undecided)] == 8);
+  CHECK(signs[1].undecided_s == 8);
+  CHECK(signs[1].seen_s + signs[1].invisible_s == 0);
   CHECK(signs[2].in_view_s == 0);
 }
 
@@ -75,15 +86,18 @@ TEST_CASE("cells of the floor count person-seconds without a sign read", "[walk]
   std::vector<PlacedPerson> people{walker_from({0, 0, 0}, {1, 0, 0}, 8)};
   PlanLevel upper;
   upper.floor_m = 3;
-  const auto counts = floor_counts({{}, upper}, people, {walked_person()}, 2);
-  REQUIRE(counts.size() == 2);
-  CHECK(counts[1].empty());
-  REQUIRE(counts[0].size() == 2);
-  CHECK(counts[0].at({0, 0}) == 0);
-  CHECK(counts[0].at({1, 0}) == 4);
+  const auto floors = walked_floors({{}, upper}, people, {walked_person()}, 2);
+  REQUIRE(floors.size() == 2);
+  CHECK(floors[1].floor_m == 3);
+  CHECK(floors[1].cells.empty());
+  REQUIRE(floors[0].cells.size() == 2);
+  CHECK(floors[0].cells[0].corner == glm::dvec2(0, 0));
+  CHECK(floors[0].cells[0].unread_s == 0);
+  CHECK(floors[0].cells[1].corner == glm::dvec2(0.5, 0));
+  CHECK(floors[0].cells[1].unread_s == 4);
   PlanLevel level;
   level.walls = {{{0, 0}, {10, 0}}};
-  const std::string svg = walk_map(level, counts[0]);
+  const std::string svg = people_map(level, floors[0], counted_cell_m, english()).svg;
   CHECK(svg.find("#cfe3d4") != std::string::npos);  // always read
   CHECK(svg.find("#e59a4c") != std::string::npos);  // 2 to 10 person-seconds without
   CHECK_THAT(svg, Catch::EndsWith("</svg>\n"));

@@ -1,9 +1,7 @@
-// Maps and their animation share one sheet: walls of a level, and what lies or moves over them. The
-// animation is declared in the SVG itself (SMIL), so that a browser plays it without a script.
+// The animation is declared in the SVG itself (SMIL), so that a browser plays it without a script.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "actors/judge/report/plan_parts.hpp"
 #include "actors/judge/walk/walk_files.hpp"
@@ -11,24 +9,6 @@
 namespace luxodus {
 
 namespace {
-
-/// Colours of cells by person-seconds without a sign read; they differ in lightness, too.
-struct CellClass {
-  double below_s;  // belongs to smaller values
-  const char* colour;
-  const char* text;
-};
-constexpr std::array<CellClass, 5> cell_classes{{{1e-9, "#cfe3d4", "always read a sign"},
-                                                 {2, "#f6d98b", "up to 2 person-seconds without"},
-                                                 {10, "#e59a4c", "2 to 10"},
-                                                 {50, "#b04a3a", "10 to 50"},
-                                                 {1e300, "#4a1526", "50 and more"}}};
-
-const CellClass& class_of(double unread_s) {
-  for (const CellClass& one : cell_classes)
-    if (unread_s < one.below_s) return one;
-  return cell_classes.back();
-}
 
 /// Colours of people by what they read at a step.
 constexpr const char* reads_colour = "#2f8f5b";
@@ -44,33 +24,6 @@ const char* colour_of(const WalkStep& step) {
 constexpr double played_times = 4;
 /// Height of the line that shows the time [mm].
 constexpr double clock_mm = 1;
-
-std::string symbol(const char* colour) {
-  return fmt::format("<rect x=\"0\" y=\"-1.5\" width=\"3\" height=\"3\" fill=\"{}\"/>", colour);
-}
-
-/// A box that holds the walls of a level and more places.
-class DrawnBox {
- public:
-  explicit DrawnBox(const PlanLevel& level) {
-    for (const auto* lines : {&level.walls, &level.furniture})
-      for (const auto& [a, b] : *lines) {
-        take(a);
-        take(b);
-      }
-  }
-  void take(const glm::dvec2& place) {
-    low_ = glm::min(low_, place);
-    high_ = glm::max(high_, place);
-  }
-  Sheet sheet(const Legend& legend) const {
-    if (low_.x > high_.x) return {glm::dvec2(0), glm::dvec2(1), PlanSize(), legend};
-    return {low_, high_, PlanSize(), legend};
-  }
-
- private:
-  glm::dvec2 low_{1e300}, high_{-1e300};
-};
 
 /// The times of an animation as shares of it.
 struct PlayedTime {
@@ -126,33 +79,12 @@ PersonTrack track_of(const WalkedPerson& walked, const Sheet& sheet, const Playe
 
 }  // namespace
 
-std::string walk_map(const PlanLevel& level, const FloorCount& counts) {
-  Legend legend;
-  for (const CellClass& one : cell_classes) legend.add(symbol(one.colour), 3, one.text);
-  DrawnBox box(level);
-  for (const auto& [cell, count] : counts) {
-    box.take(counted_cell_m * glm::dvec2(cell.first, cell.second));
-    box.take(counted_cell_m * glm::dvec2(cell.first + 1, cell.second + 1));
-  }
-  const Sheet sheet = box.sheet(legend);
-  std::string cells;
-  for (const auto& [cell, unread_s] : counts) {
-    const glm::dvec2 low = counted_cell_m * glm::dvec2(cell.first, cell.second);
-    cells += fmt::format(
-        "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\" "
-        "shape-rendering=\"crispEdges\"/>\n",
-        sheet.x(low.x), sheet.y(low.y + counted_cell_m), sheet.mm(counted_cell_m),
-        sheet.mm(counted_cell_m), class_of(unread_s).colour);
-  }
-  return finished(sheet, legend, cells + building(level, sheet)).svg;
-}
-
 std::string walk_animation(const PlanLevel& level, const std::vector<const WalkedPerson*>& walks,
                            double step_s) {
   Legend legend;
-  legend.add(symbol(reads_colour), 3, "reads a sign");
-  legend.add(symbol(undecided_colour), 3, "undecided");
-  legend.add(symbol(unread_colour), 3, "reads none");
+  legend.add(legend_square(reads_colour), 3, "reads a sign");
+  legend.add(legend_square(undecided_colour), 3, "undecided");
+  legend.add(legend_square(unread_colour), 3, "reads none");
   DrawnBox box(level);
   PlayedTime time{1e300, -1e300};
   for (const WalkedPerson* walked : walks) {
@@ -160,7 +92,7 @@ std::string walk_animation(const PlanLevel& level, const std::vector<const Walke
     time.from_s = std::min(time.from_s, walked->steps.front().time_s);
     time.to_s = std::max(time.to_s, walked->steps.back().time_s);
   }
-  const Sheet sheet = box.sheet(legend);
+  const Sheet sheet = box.sheet(PlanSize(), legend);
   std::string people;
   for (const WalkedPerson* walked : walks) {
     const PersonTrack track = track_of(*walked, sheet, time, step_s);

@@ -1,10 +1,9 @@
 // People of files in the scene's coordinates, clock and floors.
-#include "actors/judge/walk/placed_people.hpp"
+#include "scenes/formats/trajectories/placed_people.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "actors/judge/walk/follow.hpp"
-#include "tests/unit/actors/judge/walk/walk_kit.hpp"
+#include "tests/kit/walkers.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
@@ -23,7 +22,7 @@ Trajectories one_person(bool has_heights) {
 
 }  // namespace
 
-TEST_CASE("people are turned, then shifted, in place and time", "[walk]") {
+TEST_CASE("people are turned, then shifted, in place and time", "[trajectories]") {
   PeopleSettings settings;
   settings.turn_deg = 90;
   settings.shift = {10, 20, 0};
@@ -49,7 +48,8 @@ TEST_CASE("people are turned, then shifted, in place and time", "[walk]") {
   CHECK(seated->front().luminance_before_cd_m2 == 3);
 }
 
-TEST_CASE("heights are stated for files without them, and shifted in files with them", "[walk]") {
+TEST_CASE("heights are stated for files without them, and shifted in files with them",
+          "[trajectories]") {
   PeopleSettings settings;
   settings.file = "people.sqlite";
   CHECK(place_people(settings, one_person(false), {})->front().feet[1].z == 0);
@@ -61,7 +61,7 @@ TEST_CASE("heights are stated for files without them, and shifted in files with 
              Catch::Contains("has no heights that the z of 'shift' could be added to"));
 }
 
-TEST_CASE("storeys that a file draws beside each other lie above each other", "[walk]") {
+TEST_CASE("storeys that a file draws beside each other lie above each other", "[trajectories]") {
   PeopleSettings settings;
   settings.name = "guests";
   settings.storeys = {{{0, -1}, {1.5, 1}, 0, {0, 0}}, {{1.5, -1}, {9, 1}, 3.2, {-1.5, 0}}};
@@ -75,7 +75,7 @@ TEST_CASE("storeys that a file draws beside each other lie above each other", "[
              Catch::Contains("has heights"));
 }
 
-TEST_CASE("people look where they walk, and while they stand where they walked", "[walk]") {
+TEST_CASE("people look where they walk, and while they stand where they walked", "[trajectories]") {
   PlacedPerson one = walker_from({0, 0, 0}, {4, 0, 0}, 4);
   one.times_s = {0, 4, 10, 14};
   one.feet = {{0, 0, 0}, {4, 0, 0}, {4, 0, 0}, {4, 4, 0}};
@@ -97,14 +97,16 @@ TEST_CASE("people look where they walk, and while they stand where they walked",
   CHECK(person_at(one, 9).facing == glm::dvec2(0, -1));
 }
 
-TEST_CASE("people who stand look the same way, alone and at all their steps", "[walk]") {
+TEST_CASE("people who stand look the same way, alone and at all their steps", "[trajectories]") {
   // Waits, walks north-east, waits while swaying, walks back, waits.
   PlacedPerson one = walker_from({0, 0, 0}, {0, 0, 0}, 0);
   one.times_s = {0.2, 7.1, 9.4, 11, 30, 31.3, 34, 60.7};
   one.feet = {{0, 0, 0},    {0, 0, 0}, {2, 2, 0},   {3, 4, 0},
               {3.05, 4, 0}, {3, 4, 0}, {0.5, 3, 0}, {0.5, 3, 0}};
   for (const double step_s : {0.05, 0.1, 0.3, 0.5, 0.7, 1.0, 2.5}) {
-    const std::vector<double> times = step_times(one, step_s);
+    std::vector<double> times;
+    for (double at = one.times_s.front(); at <= one.times_s.back(); at += step_s)
+      times.push_back(at);
     const std::vector<PersonAt> all = person_at_each(one, times);
     REQUIRE(all.size() == times.size());
     for (size_t i = 0; i < times.size(); ++i) {

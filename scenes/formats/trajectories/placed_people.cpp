@@ -1,4 +1,4 @@
-#include "actors/judge/walk/placed_people.hpp"
+#include "scenes/formats/trajectories/placed_people.hpp"
 
 #include <fmt/format.h>
 
