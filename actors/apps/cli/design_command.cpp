@@ -8,6 +8,7 @@
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/load_scene.hpp"
 #include "actors/apps/cli/nodes_option.hpp"
+#include "actors/apps/cli/people_asked.hpp"
 #include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/apps/cli/signals.hpp"
@@ -36,8 +37,8 @@ struct DesignCommandOptions {
   std::string time = "2m", smoke_time = "10m";
   std::string language = "en";
   DesignOptions design;
-  std::string gap;
-  bool overwrite = false, pdf = false;
+  std::string gap, trajectories;
+  bool people = false, overwrite = false, pdf = false;
 };
 
 const std::vector<std::string> design_files{"design.html",    "design.json", "layout.toml",
@@ -131,6 +132,17 @@ Result<ExitCode> tell_none(const SceneDescription& scene, const DesignResult& re
   return ExitCode::failure;
 }
 
+/// Who are followed with the layouts that are judged in smoke; nobody unless asked for.
+Result<std::vector<PlacedPerson>> people_of(const DesignCommandOptions& o,
+                                            const SceneDescription& scene) {
+  if (!o.people && o.trajectories.empty()) return std::vector<PlacedPerson>();
+  if (o.design.in_smoke.empty() && scene.design->in_smoke.empty())
+    return problem("people rank the layouts that are judged in smoke: add --in-smoke SCENARIO");
+  auto people = people_asked(scene, o.scene, o.trajectories);
+  if (!people) return people.problem();
+  return std::move(people->people);
+}
+
 Result<ExitCode> design_scene(DesignCommandOptions o) {
   const auto seconds = parse_seconds(o.time);
   if (!seconds) return seconds.problem();
@@ -147,6 +159,9 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
       load_scene(o.scene, ReadingWarnings::told, std::nullopt, FireFrames::nearest);
   if (!scene) return exit_code_of(told);
   o.design.scene_at = reader_of_times(o.scene, *scene, FireFrames::nearest);
+  auto people = people_of(o, *scene);
+  if (!people) return people.problem();
+  o.design.people = std::move(people).value();
   const fs::path folder =
       o.out.empty() ? fs::path("out") / file_name_of(scene->name + "-designed") : fs::path(o.out);
   const auto out = OutputFolder::claim(folder, {design_files, {"plans", "alternatives"}});
@@ -176,9 +191,12 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
   print_design(*scene, result.value());
   print_because(*scene, result.value());
   const bool in_smoke = !o.design.in_smoke.empty() || !scene->design->in_smoke.empty();
-  if (result->smoke)
-    print_smoke(result.value());
-  else if (in_smoke && !interrupt_flag())
+  if (result->smoke) print_smoke(result.value());
+  if (result->smoke && !o.design.people.empty() && !result->smoke->layouts.front().people)
+    log_warning(
+        "--smoke-time was over before people were followed with every layout: the routes rank "
+        "them");
+  if (!result->smoke && in_smoke && !interrupt_flag())
     log_warning("no layout was judged in smoke before --smoke-time was over");
   for (const char* file : {"design.html", "design.pdf", "layout.toml"})
     if (o.pdf || std::string_view(file) != "design.pdf")
@@ -222,10 +240,16 @@ Command design_command() {
             "Scenarios in whose smoke the best layout and others are judged, by what people read "
             "of the signs",
             {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--people", &o->people,
+            "People of [[people]] followed with each layout that is judged in smoke; layouts are "
+            "then ranked by how long these people are without a sign that they read"},
+           trajectories_option(o->trajectories),
            {"--smoke-time",
             &o->smoke_time,
             "Time of judging layouts in smoke, e.g. 2m; what is undecided then is told. In a scene "
-            "with [time] 60 % of it are for comparing, the rest for how long layouts guide",
+            "with [time], or with people, 60 % of it are for comparing, the rest for how long "
+            "layouts "
+            "guide",
             {.form = Form::duration}},
            {"--time", &o->time, "Time of the search, e.g. 30s, 5m", {.form = Form::duration}},
            {"--gap",
@@ -253,6 +277,7 @@ Command design_command() {
           "  luxodus design scenes/library/office_floor.toml --out out/layout\n"
           "  luxodus design office.toml --rules en1838-2024 --time 30s --gap 3%\n"
           "  luxodus design office.toml --in-smoke smoke_emergency\n"
+          "  luxodus design office.toml --in-smoke fire --trajectories people.sqlite\n"
           "  luxodus assess out/layout/layout.toml",
       .run = [o] { return exit_code_of(design_scene(*o)); }};
 }

@@ -9,6 +9,7 @@
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/load_scene.hpp"
 #include "actors/apps/cli/nodes_option.hpp"
+#include "actors/apps/cli/people_asked.hpp"
 #include "actors/apps/cli/progress_line.hpp"
 #include "actors/apps/cli/signals.hpp"
 #include "actors/apps/cli/version.hpp"
@@ -18,7 +19,6 @@
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
-#include "scenes/formats/scene_file/scene_people.hpp"
 
 namespace luxodus::cli {
 
@@ -34,47 +34,6 @@ struct WalkCommandOptions {
   int nodes = 0;
   std::vector<std::string> at;
 };
-
-/// The people of the scene, or those of the named file by the only [[people]] of the scene.
-Result<std::vector<PeopleSettings>> people_asked(const WalkCommandOptions& o) {
-  ReadPeople read = read_people_of_scene(o.scene);
-  if (!read.problems.empty()) return read.problems.list().front();
-  if (o.trajectories.empty()) {
-    if (!read.people.empty()) return std::move(read.people);
-    return problem_in(o.scene,
-                      "nobody walks in this scene: state [[people]], or name a file by "
-                      "--trajectories");
-  }
-  if (read.people.size() > 1)
-    return problem_in(o.scene,
-                      "--trajectories replaces the file of one [[people]], and this scene has "
-                      "several");
-  PeopleSettings one = read.people.empty() ? PeopleSettings() : std::move(read.people.front());
-  if (one.name.empty()) one.name = fs::path(o.trajectories).stem().string();
-  one.file = o.trajectories;
-  return std::vector<PeopleSettings>{std::move(one)};
-}
-
-/// People of all groups, and what forms their files have.
-struct AllPeople {
-  std::vector<PlacedPerson> people;
-  std::vector<std::string> forms;
-};
-
-Result<AllPeople> read_all_people(const std::vector<PeopleSettings>& groups,
-                                  const SceneDescription& scene) {
-  AllPeople out;
-  for (const PeopleSettings& group : groups) {
-    const WaitingLine waiting("reading " + group.file);
-    const auto file = read_trajectories(group.file);
-    if (!file) return file.problem();
-    auto placed = place_people(group, file.value(), scene.assessment);
-    if (!placed) return placed.problem();
-    std::move(placed->begin(), placed->end(), std::back_inserter(out.people));
-    out.forms.push_back(file->form);
-  }
-  return out;
-}
 
 /// Warns of signs about which nothing is known wherever people could look at them.
 void warn_of_undecided(const SceneDescription& scene, const std::vector<PassedSign>& signs) {
@@ -102,18 +61,12 @@ void print_walk(const WallCheck& walls, const FollowedPeople& followed) {
 }
 
 Result<ExitCode> walk(const WalkCommandOptions& o) {
-  const auto groups = people_asked(o);
-  if (!groups) return groups.problem();
   const AssessedStates states = assessed_states(o.scene, times_asked(o.at));
   const auto& scene = states.last;
   if (!scene) return exit_code_of(states.told);
-  if (scene->people_are_bodies)
-    return problem_in(o.scene,
-                      "people who stand as bodies would look through their own heads: walk the "
-                      "scene without 'people_as_bodies' (--crowd-hides hides signs behind people)");
   if (scene->packed)
     return problem_in(o.scene, "people walk in scene files: a pack does not hold all of them");
-  auto people = read_all_people(groups.value(), *scene);
+  auto people = people_asked(*scene, o.scene, o.trajectories);
   if (!people) return people.problem();
   const auto scenario = judged_scenario(*scene, o.assess.scenario);
   if (!scenario) return scenario.problem();
@@ -164,10 +117,7 @@ Command walk_command() {
       .heading = "Assess",
       .options =
           {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
-           {"--trajectories",
-            &o->trajectories,
-            "File of trajectories, instead of that of [[people]] in the scene",
-            {.form = Form::file}},
+           trajectories_option(o->trajectories),
            scenario_option(o->assess),
            times_option(o->at),
            {"--out",

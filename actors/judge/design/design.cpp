@@ -541,6 +541,7 @@ class DesignRun {
     asked.threads = options_.threads;
     asked.seconds = options_.smoke_seconds;
     asked.scene_at = options_.scene_at;
+    asked.people = options_.people;
     auto stage = judge_in_smoke(std::move(layouts), asked, interrupt_, tell);
     if (!stage) return stage.problem();
     if (!stage->layouts.empty()) out_.smoke = std::move(stage).value();

@@ -36,6 +36,9 @@ struct DesignOptions {
   std::vector<std::string> in_smoke;
   double smoke_seconds = 600;  // largest time for judging in smoke
   SceneAtTime scene_at = {};   // reads the scene at other times; empty: it has no clock
+  /// Who are followed with the layouts that are judged in smoke, which are then ranked by how long
+  /// they are without a sign that they read; empty: by the routes.
+  std::vector<PlacedPerson> people = {};
 };
 
 /// A rule required without furniture only, since no layout passes it with furniture.

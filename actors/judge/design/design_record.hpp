@@ -251,6 +251,14 @@ struct SmokeScenarioRecord {
   }
 };
 
+/// Person-seconds without a sign that is read, from "undecided is read" to "undecided is not".
+struct PeopleUnreadRecord {
+  double least_s = 0, most_s = 0, all_s = 0;
+  static constexpr void fields(auto&& field, auto& m) {
+    field("unread_least_s", m.least_s)("unread_most_s", m.most_s)("all_s", m.all_s);
+  }
+};
+
 struct SmokeLayoutRecord {
   std::string name;
   std::string file;  // in the folder of the design
@@ -260,8 +268,9 @@ struct SmokeLayoutRecord {
   double cost = 0, watts = 0, sign_factor = 1;
   size_t low_signs = 0;
   int rounds = 0;
-  bool open = false;                   // more paths could change its rank
-  std::optional<GuidedRecord> guided;  // of a scene that changes in time
+  bool open = false;                         // more paths could change its rank
+  std::optional<GuidedRecord> guided;        // of a scene that changes in time
+  std::optional<PeopleUnreadRecord> people;  // if people were followed
   size_t places_lost = 0, places_won = 0;
   LegibleShare worst;
   ShareDifference beyond_first;
@@ -275,6 +284,7 @@ struct SmokeLayoutRecord {
     field("luminaires", m.luminaires)("cost", m.cost)("watts", m.watts);
     field("sign_factor", m.sign_factor)("low_signs", m.low_signs)("rounds", m.rounds);
     field("open", m.open)("guided", m.guided, {.or_null = true});
+    field("people", m.people, {.or_null = true});
     field("places_lost", m.places_lost)("places_won", m.places_won)("worst", m.worst);
     field("beyond_first", m.beyond_first)("scenarios", m.scenarios);
   }

@@ -120,11 +120,13 @@ SmokeLayoutRecord layout_of(const SmokeStage& stage, const JudgedLayout& one) {
                         .rounds = one.rounds,
                         .open = one.is_open,
                         .guided = guided_of(one),
+                        .people = {},
                         .places_lost = one.lost,
                         .places_won = one.won,
                         .worst = one.worst(),
                         .beyond_first = difference_of(stage.layouts.front(), one),
                         .scenarios = {}};
+  if (one.people) out.people = {one.people->least_s, one.people->most_s, one.people->all_s};
   for (const SmokeVerdict& verdict : one.smoke) {
     SmokeScenarioRecord& scenario =
         out.scenarios.emplace_back(verdict.scenario, verdict.all, verdict.beyond_first);

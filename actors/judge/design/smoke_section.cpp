@@ -41,6 +41,14 @@ std::string until_words(const Texts& t, const GuidedRecord& guided) {
                        : t.say("design.smoke_until_range", seconds(least), seconds(most));
 }
 
+/// "120 of 2133", "120 to 140 of 2133".
+std::string people_words(const Texts& t, const PeopleUnreadRecord& people) {
+  const std::string least = t.fixed(people.least_s, 0), most = t.fixed(people.most_s, 0),
+                    all = t.fixed(people.all_s, 0);
+  return least == most ? t.say("design.people_s", least, all)
+                       : t.say("design.people_range", least, most, all);
+}
+
 const SmokeLayoutRecord& named_layout(const SmokeRecord& smoke, const std::string& name) {
   for (const SmokeLayoutRecord& one : smoke.layouts)
     if (one.name == name) return one;
@@ -124,6 +132,7 @@ std::string rows_of(const Texts& t, const SmokeRecord& smoke) {
            number_cell(t, one.watts, "W") + cell(by_scenario) +
            cell(&one == &smoke.layouts[0] ? "–" : difference_words(t, one.beyond_first)) +
            (one.guided ? cell(until_words(t, *one.guided)) : "") +
+           (one.people ? cell(people_words(t, *one.people)) : "") +
            html_cell(file.empty() ? "–"
                                   : "<a href=\"" + escaped(file) + "\">" + escaped(file) + "</a>") +
            "</tr>\n";
@@ -152,7 +161,13 @@ std::vector<std::string> smoke_words(const Texts& t, const SmokeRecord& smoke) {
   const std::string first_name = first.name, best_name = best.name;
   std::vector<std::string> out{
       t.say("design.smoke_first", first_name, share_words(t, first.worst))};
-  if (best_name == first_name)
+  if (first.people && best.people)
+    out.push_back(best_name == first_name
+                      ? t.say("design.people_same", first_name, people_words(t, *first.people))
+                      : t.say("design.people_better", best_name, best.luminaires, first.luminaires,
+                              people_words(t, *best.people), first_name,
+                              people_words(t, *first.people)));
+  else if (best_name == first_name)
     out.emplace_back(t("design.smoke_same"));
   else
     out.push_back(t.say("design.smoke_better", best_name, best.luminaires, first.luminaires,
@@ -184,7 +199,8 @@ std::string smoke_section(const Texts& t, const DesignRecord& design) {
   std::string out = "<h2>" + escaped(t("design.smoke_heading")) + "</h2>\n";
   for (const std::string& words : smoke_words(t, smoke)) out += paragraph(words);
   out += plot_of(t, design);
-  const bool followed = smoke.layouts[0].guided.has_value();
+  const bool followed = smoke.layouts[0].guided.has_value(),
+             people = smoke.layouts[0].people.has_value();
   std::vector<const char*> columns{"design.smoke_layout", "column.count",
                                    "design.smoke_cost",   "design.smoke_watts",
                                    "design.smoke_read",   "design.smoke_beyond_first",
@@ -194,8 +210,15 @@ std::string smoke_section(const Texts& t, const DesignRecord& design) {
     columns.insert(columns.end() - 1, "design.smoke_until");
     widths = {12, 8, 8, 8, 22, 12, 12, 18};
   }
+  if (people) {
+    columns.insert(columns.end() - 1, "design.people_column");
+    widths.insert(widths.end() - 1, 12);
+    widths[4] -= 8;
+    widths.back() -= 4;
+  }
   out += table(t, columns, widths, rows_of(t, smoke)) +
          paragraph(t.say("design.smoke_note", t.number(smoke.ahead_deg, 2)), "note");
+  if (people) out += paragraph(t("design.people_note"), "note");
   return followed ? out + paragraph(t("design.smoke_until_note"), "note") : out;
 }
 

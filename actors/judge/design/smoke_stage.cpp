@@ -38,24 +38,26 @@ Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
   return std::optional(std::move(out));
 }
 
-/// Share of the time for the elimination rounds, if the scene changes in time.
-constexpr double share_of_race = 0.6;
+/// Share of the time for the elimination rounds, if more follows them; and until the end of
+/// following people, if guidance over time comes after it.
+constexpr double share_of_race = 0.6, share_of_people = 0.85;
 
-/// Runs the elimination rounds and the guidance over time, within a time.
+/// Runs the elimination rounds, follows people, and finds the guidance over time, within a time.
 class Stage {
  public:
   Stage(SmokeStage& stage, const SmokeStageOptions& options, const std::atomic<bool>& interrupt,
         const std::function<void(const std::string&)>& progress)
       : stage_(stage), options_(options), interrupt_(interrupt), progress_(progress) {}
 
-  /// Errors: as SmokeRace::run and guidance_of, except for the end of the time and an interrupt.
+  /// Errors: as SmokeRace::run, people_unread and guidance_of, except for the end of the time and
+  /// an interrupt.
   Result<void> run() {
     const std::vector<LayoutGroup> groups =
         layout_groups_of(stage_.layouts, stage_.scenarios.size(), options_.together);
     stage_.traces = groups.size();
     if (can_follow(groups)) stage_.times_s = times_of(*groups.front().base->time);
-    const bool followed = !stage_.times_s.empty();
-    seconds_ = followed ? share_of_race * options_.seconds : options_.seconds;
+    const bool followed = !stage_.times_s.empty(), people = !options_.people.empty();
+    seconds_ = followed || people ? share_of_race * options_.seconds : options_.seconds;
     stops();
     const std::function<void(const std::string&)> tell = [&](const std::string& what) {
       stops();
@@ -65,13 +67,16 @@ class Stage {
     if (!finished) return finished.problem();
     if (!finished.value()) stage_.end = interrupt_ ? RaceEnd::interrupted : RaceEnd::time;
     stage_.seconds = seconds();
+    if (people && !interrupt_ && any_judged()) {
+      limit(followed ? share_of_people : 1);
+      if (auto ok = follow_people(tell); !ok) return ok;
+    }
     if (!followed) return {};
     if (interrupt_ || !any_judged()) {
       stage_.times_s.clear();
       return {};
     }
-    seconds_ = options_.seconds;
-    stopped_ = false;
+    limit(1);
     return follow(groups, tell);
   }
 
@@ -79,6 +84,12 @@ class Stage {
   double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
   void stops() {
     if (interrupt_ || seconds() > seconds_) stopped_ = true;
+  }
+
+  /// Lets what follows go on until this share of the time is over.
+  void limit(double share) {
+    seconds_ = share * options_.seconds;
+    stopped_ = false;
   }
 
   bool any_judged() const {
@@ -90,6 +101,28 @@ class Stage {
     const SceneDescription& scene = *groups.front().base;
     return options_.scene_at && scene.time && times_of(*scene.time).size() > 1 &&
            check_guidance(scene).ok();
+  }
+
+  /// Sets what people read with every judged layout, or with none if time is up or the user
+  /// interrupts.
+  Result<void> follow_people(const std::function<void(const std::string&)>& tell) {
+    const PeopleQuestion asked{
+        options_.people, {}, stage_.scenarios, options_.scene_at, options_.seed, options_.threads};
+    for (JudgedLayout& one : stage_.layouts) {
+      if (one.rounds == 0) continue;
+      const auto found =
+          people_unread(one.layout.variant, asked, stopped_, [&](const std::string& what, double) {
+            tell("following people with layout " + one.name + ", " + what);
+          });
+      if (!found && !stopped_) return found.problem();
+      if (!found) {
+        for (JudgedLayout& other : stage_.layouts) other.people.reset();
+        return {};
+      }
+      one.people = found.value();
+    }
+    stage_.seconds = seconds();
+    return {};
   }
 
   /// Sets the guidance of every layout, or of none if time is up or the user interrupts. `end` of
@@ -181,6 +214,13 @@ const JudgedLayout& SmokeStage::recommended() const {
   const JudgedLayout* best = &layouts.front();
   for (const JudgedLayout& one : layouts) {
     if (!one.has_usual_signs()) continue;
+    if (best->people && one.people) {
+      const bool no_longer = one.people->surely_no_more_than(*best->people);
+      if (best->people->surely_more_than(*one.people) ||
+          (no_longer && one.objective < best->objective))
+        best = &one;
+      continue;
+    }
     const ShareDifference beyond = difference_of(*best, one);
     const bool as_good_and_cheaper = beyond.surely_no_less() && one.objective < best->objective;
     if (beyond.surely_more() || as_good_and_cheaper) best = &one;

@@ -11,6 +11,7 @@
 
 #include "actors/judge/assess/assessment.hpp"
 #include "actors/judge/design/layout_guidance.hpp"
+#include "actors/judge/design/layout_people.hpp"
 #include "actors/judge/design/low_signs.hpp"
 #include "actors/judge/design/placed_layout.hpp"
 #include "actors/judge/design/smoke_differences.hpp"
@@ -44,6 +45,7 @@ struct JudgedLayout {
   /// For each route and eye height, in the scenario where guidance is lost first. Empty unless the
   /// scene changes in time and signs lead along routes.
   std::vector<GuidedUntil> guided;
+  std::optional<PeopleUnread> people;  // none unless people were followed with every layout
 
   /// Whether it has the signs of the first layout, neither brighter nor more.
   bool has_usual_signs() const { return sign_factor == 1 && low_signs.empty(); }
@@ -79,7 +81,9 @@ struct SmokeStage {
   double seconds = 0;
 
   /// Among layouts with unchanged signs: the first, unless signs are certainly read from more
-  /// places with another one, or certainly from as many at a lower objective. Requires: a layout.
+  /// places with another one, or certainly from as many at a lower objective. Where people were
+  /// followed, unless they are certainly without a sign for a shorter time with another one, or
+  /// certainly not longer at a lower objective. Requires: a layout.
   const JudgedLayout& recommended() const;
   /// The layout with brighter signs; null if there is none.
   const JudgedLayout* with_brighter_signs() const;
@@ -97,6 +101,7 @@ struct SmokeStageOptions {
   /// Reads the building at other times, to find until when layouts guide; empty: it does not
   /// change.
   SceneAtTime scene_at = {};
+  std::vector<PlacedPerson> people = {};  // who are followed with each layout
 };
 
 /// Judges layouts that pass the rules. The first is the best of them; copies of it with brighter

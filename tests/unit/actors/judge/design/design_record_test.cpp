@@ -19,6 +19,7 @@ SmokeRecord smoke() {
   SmokeLayoutRecord& layout = out.layouts.emplace_back();
   layout.name = "A";
   layout.guided = {30, 60, true, {{"way", 1.65, 30, {}}}};
+  layout.people = {60, 90, 500};
   layout.worst = {0.5, 0.75};
   layout.scenarios = {{"fire", {0.5, 0.75}, {-0.1, 0.1}, {{{0.5, 0.75}, 1.65}}}};
   return out;
