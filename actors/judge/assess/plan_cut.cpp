@@ -105,20 +105,28 @@ std::vector<Line> longest_lines(std::vector<Line> lines) {
   return lines;
 }
 
-std::vector<PlanLevel> plan_levels(const SceneDescription& scene, const Scenario& doors) {
-  std::vector<double> floors;
+std::vector<double> floors_of(const SceneDescription& scene) {
+  std::vector<double> heights;
   for (const EscapeRoute& route : scene.routes)
-    for (const glm::dvec3& p : route.path) floors.push_back(p.z);
-  for (const AssessedArea& area : scene.open_areas) floors.push_back(area.z_m);
+    for (const glm::dvec3& p : route.path) heights.push_back(p.z);
+  for (const AssessedArea& area : scene.open_areas) heights.push_back(area.z_m);
+  std::sort(heights.begin(), heights.end());
+  std::vector<double> out;
+  for (const double z : heights)
+    if (out.empty() || z - out.back() >= storey_m) out.push_back(z);
+  return out;
+}
+
+std::vector<PlanLevel> plan_levels(const SceneDescription& scene, const Scenario& doors) {
+  std::vector<double> floors = floors_of(scene);
   if (floors.empty()) floors.push_back(0);
-  std::sort(floors.begin(), floors.end());
+  floors.resize(std::min(floors.size(), limits::plan_levels));
   std::vector<PlanLevel> out;
-  for (const double z : floors)
-    if (out.empty() || (z - out.back().floor_m >= storey_m && out.size() < limits::plan_levels)) {
-      out.emplace_back();
-      out.back().floor_m = z;
-      cut_level(scene, doors, out.back());
-    }
+  for (const double z : floors) {
+    out.emplace_back();
+    out.back().floor_m = z;
+    cut_level(scene, doors, out.back());
+  }
   return out;
 }
 

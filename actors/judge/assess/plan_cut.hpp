@@ -19,8 +19,12 @@ inline constexpr size_t plan_levels = 100;
 inline constexpr size_t map_places = 20'000;
 }  // namespace limits
 
-/// One level with its walls for each floor on which routes or areas lie, from below. A floor less
-/// than two metres above another counts as its landing. Without routes and areas one level at zero.
+/// Heights of the floors on which routes or areas lie, from below; one less than two metres above
+/// another counts as its landing. Empty without routes and areas.
+std::vector<double> floors_of(const SceneDescription& scene);
+
+/// One level with its walls for each floor on which routes or areas lie, from below
+/// (floors_of). Without routes and areas one level at zero.
 std::vector<PlanLevel> plan_levels(const SceneDescription& scene, const Scenario& doors);
 
 /// Index of the level of a place: the highest whose floor is at most half a metre above the place,

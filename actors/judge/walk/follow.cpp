@@ -159,14 +159,19 @@ WaysAhead::WaysAhead(const SceneDescription& scene, const glm::dvec3& foot)
 
 bool WaysAhead::lead_past(const Sign& sign, const SignView& view) const {
   if (view.behind) return false;
-  if (any_sign_) return true;
+  return any_sign_ || !led_along(sign, view).empty();
+}
+
+std::vector<const EscapeRoute*> WaysAhead::led_along(const Sign& sign, const SignView& view) const {
+  std::vector<const EscapeRoute*> out;
   // Where the person looks is asked elsewhere: for the route the sign is straight ahead.
   const glm::dvec3 to = view.centre - foot_;
   const double length = glm::length(to);
-  if (length == 0) return false;
-  return std::any_of(here_.begin(), here_.end(), [&](const RouteHere& one) {
-    return can_guide(*one.route, {foot_, to / length, one.along_m}, sign, view);
-  });
+  if (length == 0) return out;
+  for (const RouteHere& one : here_)
+    if (can_guide(*one.route, {foot_, to / length, one.along_m}, sign, view))
+      out.push_back(one.route);
+  return out;
 }
 
 bool people_hide(const Sign& sign, const SignView& view, const glm::dvec3& eye,

@@ -76,6 +76,8 @@ class WaysAhead {
   /// later, in the direction of its arrow (guidance.hpp). In a scene without routes all signs do
   /// that turn a face to the eye. `view`: from the person's eye.
   bool lead_past(const Sign& sign, const SignView& view) const;
+  /// The routes of the storey along which a sign leads so, in the order of the scene.
+  std::vector<const EscapeRoute*> led_along(const Sign& sign, const SignView& view) const;
 
  private:
   /// A route of the storey, and how far along it the person is.

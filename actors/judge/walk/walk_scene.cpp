@@ -9,14 +9,12 @@
 
 #include "actors/judge/inspect/building.hpp"
 #include "actors/judge/visibility_map/sign_estimates.hpp"
-#include "scenes/light/transport/visibility.hpp"
+#include "actors/judge/walk/eye_smoke.hpp"
 
 namespace luxodus {
 
 namespace {
 
-/// Length over which smoke is measured at an eye [m]: a part of any cell of a simulation.
-constexpr double measured_m = 0.02;
 /// Share of the work that goes into estimates of signs; the rest is for smoke.
 constexpr double signs_share = 0.95;
 
@@ -160,16 +158,6 @@ class SceneWalk {
     return {};
   }
 
-  /// Weight of a state at a time: 1 at its own time, falling to 0 at its neighbours'.
-  static double weight_of(const std::vector<double>& times, size_t t, double time_s) {
-    if (times.size() == 1) return 1;
-    if (time_s < times[t])
-      return t == 0 ? 1 : std::max(0.0, 1 - (times[t] - time_s) / (times[t] - times[t - 1]));
-    return t + 1 == times.size()
-               ? 1
-               : std::max(0.0, 1 - (time_s - times[t]) / (times[t + 1] - times[t]));
-  }
-
   Result<void> measure_state(const SceneDescription& scene, const Scenario& scenario,
                              const std::vector<double>& times, size_t t) {
     if (!has_smoke(scene, scenario)) return {};
@@ -178,14 +166,9 @@ class SceneWalk {
     if (!made) return made.problem();
     const Building& building = *made.value();
     building.each(eyes_.size(), [&](const GeometryAccess& access, size_t i) {
-      const double weight = weight_of(times, t, eyes_[i].time_s);
+      const double weight = weight_of_state(times, t, eyes_[i].time_s);
       if (weight == 0) return;
-      const glm::dvec3 half(measured_m / 2, 0, 0);
-      const glm::vec3 from = building.local(eyes_[i].eye - half),
-                      to = building.local(eyes_[i].eye + half);
-      found_.extinctions[i] += weight *
-                               depth_between(building.scene(), access, from, to, stated_nm) /
-                               static_cast<double>(glm::distance(from, to));
+      found_.extinctions[i] += weight * extinction_at_eye(building, access, eyes_[i].eye);
     });
     return {};
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "actors/judge/inspect/building.hpp"
 #include "scenes/light/transport/visibility.hpp"
 
 namespace luxodus {
@@ -37,16 +36,6 @@ std::vector<Step> steps_of(const std::vector<PlacedPerson>& people) {
       out.push_back({p, at, std::min(at + step_s, t.back())});
   }
   return out;
-}
-
-/// The scene without doors and what is not there: only what nobody walks through.
-SceneDescription walls_of(const SceneDescription& scene) {
-  SceneDescription out = scene;
-  std::erase_if(out.objects, [&](const Object& object) {
-    return object.door.has_value() ||
-           scene.materials[static_cast<size_t>(object.material)].kind == MaterialKind::open;
-  });
-  return without_measurements(out);
 }
 
 Result<void> check_inside(const SceneDescription& scene, const std::vector<PlacedPerson>& people) {
@@ -84,13 +73,23 @@ bool goes_wrong(const Building& building, const GeometryAccess& access, const gl
 
 }  // namespace
 
-Result<WallCheck> check_walls(const SceneDescription& scene, const Scenario& scenario,
-                              const std::vector<PlacedPerson>& people, int threads) {
-  if (auto ok = check_inside(scene, people); !ok) return ok.problem();
+Result<std::unique_ptr<Building>> walls_alone(const SceneDescription& scene,
+                                              const Scenario& scenario, int threads) {
+  SceneDescription walls = without_measurements(scene);
+  std::erase_if(walls.objects, [&](const Object& object) {
+    return object.door.has_value() ||
+           scene.materials[static_cast<size_t>(object.material)].kind == MaterialKind::open;
+  });
   Scenario open = scenario;
   open.doors_open.clear();
   open.doors_closed.clear();
-  const auto made = Building::make(walls_of(scene), open, threads);
+  return Building::make(std::move(walls), open, threads);
+}
+
+Result<WallCheck> check_walls(const SceneDescription& scene, const Scenario& scenario,
+                              const std::vector<PlacedPerson>& people, int threads) {
+  if (auto ok = check_inside(scene, people); !ok) return ok.problem();
+  const auto made = walls_alone(scene, scenario, threads);
   if (!made) return made.problem();
   const Building& building = *made.value();
   const std::vector<Step> steps = steps_of(people);

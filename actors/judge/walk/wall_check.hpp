@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "actors/judge/inspect/building.hpp"
 #include "scenes/formats/trajectories/placed_people.hpp"
 
 namespace luxodus {
@@ -23,6 +24,11 @@ struct WallCheck {
     return steps == 0 ? 0 : static_cast<double>(wrong) / static_cast<double>(steps);
   }
 };
+
+/// The building of only what nobody walks through: without doors, what is not there, and
+/// measurements. Errors: as compile_scene.
+Result<std::unique_ptr<Building>> walls_alone(const SceneDescription& scene,
+                                              const Scenario& scenario, int threads);
 
 /// Looks along all steps a metre above the floor, above low furniture. Errors: a person outside of
 /// the building, or a larger share than limits::steps_in_walls, with the first place; as
