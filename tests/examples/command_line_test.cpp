@@ -78,11 +78,11 @@ TEST_CASE("the help lists every command once, under the seven headings", "[progr
                                              "Cluster", "Study", "Tools"});
   const std::vector<std::string> commands = commands_in(help);
   CHECK(commands ==
-        std::vector<std::string>{"check",    "pack",    "import",    "run",    "render", "export",
-                                 "converge", "assess",  "compare",   "report", "design", "spacing",
-                                 "walk",     "view",    "cluster",   "node",   "status", "topology",
-                                 "keygen",   "profile", "deploy",    "sim",    "study",  "validate",
-                                 "keys",     "info",    "completion"});
+        std::vector<std::string>{"check",    "pack",   "import",  "run",       "render", "export",
+                                 "converge", "assess", "compare", "report",    "design", "spacing",
+                                 "walk",     "people", "view",    "cluster",   "node",   "status",
+                                 "topology", "keygen", "profile", "deploy",    "sim",    "study",
+                                 "validate", "keys",   "info",    "completion"});
 }
 
 TEST_CASE("every option is described by a noun phrase within 92 columns", "[program][help]") {

@@ -26,6 +26,7 @@ Command report_command();
 Command design_command();
 Command spacing_command();
 Command walk_command();
+Command people_command();
 // live view
 Command view_command();
 // clusters

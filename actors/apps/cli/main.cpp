@@ -31,15 +31,20 @@ Command luxodus_command() {
           "  luxodus run scenes/library/office_floor.toml --out out/floor --time 30s\n"
           "`luxodus COMMAND --help` tells more, `luxodus keys` what files may say. The documents "
           "explain scene files: docs/reference/scene-file.md.",
-      .commands = {check_command(),    pack_command(),    import_command(),
-                   run_command(),      render_command(),  export_command(),
-                   converge_command(), assess_command(),  compare_command(),
-                   report_command(),   design_command(),  spacing_command(),
-                   walk_command(),     view_command(),    cluster_command(),
-                   node_command(),     status_command(),  topology_command(),
-                   keygen_command(),   profile_command(), deploy_command(),
-                   sim_command(),      study_command(),   validate_command(),
-                   keys_command(),     info_command(),    completion_command(luxodus_command)}};
+      .commands = {check_command(),    pack_command(),
+                   import_command(),   run_command(),
+                   render_command(),   export_command(),
+                   converge_command(), assess_command(),
+                   compare_command(),  report_command(),
+                   design_command(),   spacing_command(),
+                   walk_command(),     people_command(),
+                   view_command(),     cluster_command(),
+                   node_command(),     status_command(),
+                   topology_command(), keygen_command(),
+                   profile_command(),  deploy_command(),
+                   sim_command(),      study_command(),
+                   validate_command(), keys_command(),
+                   info_command(),     completion_command(luxodus_command)}};
 }
 
 }  // namespace luxodus::cli
