@@ -189,7 +189,7 @@ std::string observers_along(const std::vector<CsvRow>& steps) {
 
 }  // namespace
 
-TEST_CASE("every step of a walker agrees with an assessment from his place", "[program][walk]") {
+TEST_CASE("every step of a walker agrees with an assessment from that place", "[program][walk]") {
   const SmokyWay walked(R"(
 [[people]]
 name = "guests"

@@ -29,7 +29,7 @@ inline const std::vector<std::string> walk_files{"people.csv", "signs.csv", "ste
                                                  "curve.csv",  "curve.svg", "walk.json"};
 /// "map.svg", or "map_1.svg", ... with several levels, and "animation.svg" likewise. Only those of
 /// levels on which people walk are written; somebody who changes the level is in the animation of
-/// that on which he begins.
+/// that of their first step.
 std::vector<std::string> level_files(const std::string& what, size_t levels);
 
 FollowedPeople record_of(const WalkToWrite& walk);

@@ -24,8 +24,8 @@ namespace {
 /// Deviations from the mean speed beyond which a speed is drawn again, and how often.
 constexpr double most_deviations = 2;
 constexpr int most_draws = 1000;
-/// A walker looks to the place that he reaches after this way [m]: where a line bends twice within
-/// a cell, he does not look aside.
+/// A walker looks to the place that is reached after this way [m]: where a line bends twice within
+/// a cell, the walker does not look aside.
 constexpr double look_ahead_m = 0.5;
 /// Users of RandomStream::layout with lower numbers are those of layouts of luminaires.
 constexpr uint32_t random_part = 3;

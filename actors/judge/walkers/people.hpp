@@ -1,5 +1,5 @@
-// People who choose their way out of one floor: each walks the way in that he remembers until he
-// reads a sign, and then where it leads. Nobody avoids anybody, and nobody uses stairs. What eyes
+// People who choose their way out of one floor: each walks the remembered way in until a sign is
+// read, and then where it leads. Nobody avoids anybody, and nobody uses stairs. What eyes
 // read and how dense the smoke is at them is asked of others. It is no simulation of an
 // evacuation. Model and sources: docs/decisions/0098-people-who-choose.md. One thread.
 #pragma once

@@ -19,7 +19,7 @@ namespace limits {
 inline constexpr size_t written_rows = 5'000'000;
 }  // namespace limits
 
-/// Where a person is in a frame, and the unit direction in which he looks; 0: not known.
+/// Where a person is in a frame, and the unit direction of view; 0: not known.
 struct WrittenPlace {
   int64_t frame = 0, id = 0;
   glm::dvec2 place{0}, facing{0};

@@ -33,7 +33,7 @@ WalkedPerson walked_person() {
 
 }  // namespace
 
-TEST_CASE("the summary of a person adds up his steps", "[walk]") {
+TEST_CASE("the summary of a person adds up the steps", "[walk]") {
   PlacedPerson placed;
   placed.group = "guests";
   placed.id = 4;

@@ -1,5 +1,5 @@
-// The model: who sets out when, what he follows, how fast he walks. What eyes read is stated by the
-// tests.
+// The model: who sets out when, what people follow, how fast they walk. What eyes read is stated by
+// the tests.
 #include "actors/judge/walkers/people.hpp"
 
 #include <map>
@@ -85,7 +85,7 @@ TEST_CASE("smoke slows people by the law of Frantzich and Nilsson", "[walkers]")
   CHECK(speed_in_smoke(1.2, 1e6) == Approx(0.12));
 }
 
-TEST_CASE("who reads no sign leaves along the way he came in", "[walkers]") {
+TEST_CASE("people who read no sign leave along the way they came in", "[walkers]") {
   Hall here;
   const std::vector<CellNumber> start{here.floor.cell(5.05, 3.05)};
   PeopleOptions options = one_person();
@@ -105,18 +105,18 @@ TEST_CASE("who reads no sign leaves along the way he came in", "[walkers]") {
   CHECK(remembered->places.back().facing.x == Approx(1));
 }
 
-TEST_CASE("who reads a sign goes where it leads until he reads another", "[walkers]") {
+TEST_CASE("people who read a sign go where it leads until they read another", "[walkers]") {
   Hall here;
   PeopleOptions options = one_person();
   options.came_by = "east";
   const std::vector<CellNumber> start{here.floor.cell(10.05, 3.05)};
-  // The sign in the west is behind him, but who sets out looks around.
+  // The sign in the west is behind the walker, but people who set out look around.
   const auto at_once = here.walk(
       options, {[](double, const glm::dvec3&, size_t sign) { return sign == 0; }, 0}, start);
   REQUIRE(at_once.ok());
   CHECK(at_once->people[0].way == 0);
   CHECK(at_once->people[0].sign == 0U);
-  // Later it is behind him, and he does not see it.
+  // Later it is behind the walker, who does not see it.
   CHECK(at_once->looks > 5);
   const auto later = here.walk(
       options,
@@ -125,7 +125,7 @@ TEST_CASE("who reads a sign goes where it leads until he reads another", "[walke
   REQUIRE(later.ok());
   CHECK(later->people[0].way == 1);
   CHECK_FALSE(later->people[0].sign);
-  // On his way east he reads the sign there, which changes nothing but that he follows it.
+  // On the way east the walker reads the sign there, and follows it; nothing else changes.
   const auto ahead = here.walk(
       options,
       {[](double, const glm::dvec3& eye, size_t sign) { return sign == 1 && eye.x > 12; }, 0},
@@ -133,7 +133,7 @@ TEST_CASE("who reads a sign goes where it leads until he reads another", "[walke
   REQUIRE(ahead.ok());
   CHECK(ahead->people[0].sign == 1U);
   CHECK(*ahead->people[0].left_s == Approx(9).margin(0.3));
-  // He keeps the one in the west though he may read it no more.
+  // The one in the west counts though it may be read no more.
   const auto keeps = here.walk(
       options,
       {[](double time_s, const glm::dvec3&, size_t sign) { return sign == 0 && time_s < 0.5; }, 0},
@@ -164,7 +164,7 @@ TEST_CASE("looks at signs that lead and are undecided are counted, and nobody fo
   options.came_by = "east";
   const auto walked = here.walk(options, {}, {here.floor.cell(10.05, 3.05)});
   REQUIRE(walked.ok());
-  // The sign in the east is ahead of him until he is at the end of its route.
+  // The sign in the east is ahead of the walker until the end of its route.
   CHECK(walked->looks == 9);
   CHECK(walked->undecided_looks == 9);
   CHECK_FALSE(walked->people[0].sign);
@@ -214,8 +214,8 @@ TEST_CASE("the same seed gives the same people, another seed others", "[walkers]
     REQUIRE(a.places[i].facing == b.places[i].facing);
   }
   CHECK(a.places[0].place != c.places[0].place);
-  // Everybody stands until the first look in his time, then walks within the drawn speeds, and
-  // begins in a cell of his own.
+  // Everybody stands until the first look in their time, then walks within the drawn speeds, and
+  // begins in another cell.
   std::map<int64_t, std::vector<WrittenPlace>> by_person;
   for (const WrittenPlace& one : a.places) by_person[one.id].push_back(one);
   REQUIRE(by_person.size() == 40);
