@@ -1,7 +1,7 @@
-// JSON of Pathfinder: {id: {time: {"position": {x, y, z}, "velocity": {...}, "isActive": true}}}.
-// It is read event by event, since its tree would take ten times its bytes. Times are keys, whose
-// order says nothing. Positions of occupants that are not active are skipped. Its unit is the
-// metre; z is the height of the floor.
+// JSON of Pathfinder: {id: {time: {"position": {x, y, z}, "velocity": {...}, "isActive": true,
+// "tagsApplied": [...]}}}. It is read event by event, since its tree would take ten times its
+// bytes. Times are keys, whose order says nothing. Positions of occupants that are not active are
+// skipped, and so is all that a list holds. Its unit is the metre; z is the height of the floor.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
 
   bool null() override { return value("null"); }
   bool boolean(bool is) override {
-    if (depth_ == 3 && key_ == "isActive") {
+    if (lists_ == 0 && depth_ == 3 && key_ == "isActive") {
       active_ = is;
       return true;
     }
@@ -36,6 +36,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
   bool string(string_t&) override { return value("a text"); }
   bool binary(binary_t&) override { return value("bytes"); }
   bool start_object(size_t) override {
+    if (lists_ > 0) return true;
     ++depth_;
     if (depth_ == 3) {
       place_ = {};
@@ -45,6 +46,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
     return depth_ <= 4 || stop("objects are nested more deeply than in a file of Pathfinder");
   }
   bool key(string_t& name) override {
+    if (lists_ > 0) return true;
     key_ = name;
     if (depth_ == 1) {
       const auto id = whole_of(name);
@@ -58,7 +60,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
     return true;
   }
   bool end_object() override {
-    if (depth_-- != 3 || !active_) return true;
+    if (lists_ > 0 || depth_-- != 3 || !active_) return true;
     for (const auto& coordinate : place_)
       if (!coordinate)
         return stop(
@@ -70,8 +72,15 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
     problem_ = added.problem();
     return false;
   }
-  bool start_array(size_t) override { return stop("a list is none of Pathfinder's trajectories"); }
-  bool end_array() override { return true; }
+  bool start_array(size_t) override {
+    if (lists_ == 0 && !value("a list")) return false;
+    ++lists_;
+    return true;
+  }
+  bool end_array() override {
+    --lists_;
+    return true;
+  }
   bool parse_error(size_t at, const std::string&, const json::exception&) override {
     return stop(fmt::format("this is no JSON: byte {} is wrong", at));
   }
@@ -88,7 +97,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
     return false;
   }
   bool number(double n) {
-    if (depth_ == 4 && within_ == "position")
+    if (lists_ == 0 && depth_ == 4 && within_ == "position")
       for (size_t axis = 0; axis < 3; ++axis)
         if (key_.size() == 1 && key_[0] == "xyz"[axis]) {
           place_[axis] = n;
@@ -98,6 +107,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
   }
   /// A value that is not read; where persons and times have to be, it is a mistake.
   bool value(const char* what) {
+    if (lists_ > 0) return true;
     if (depth_ >= 3 && !(depth_ == 4 && within_ == "position" && key_.size() == 1)) return true;
     return stop(fmt::format("{} stands where {} has to be", what,
                             depth_ <= 2 ? "an object of occupants and times" : "a coordinate"));
@@ -107,6 +117,7 @@ class PathfinderEvents : public nlohmann::json_sax<json> {
   TrajectoryRows rows_;
   std::optional<Problem> problem_;
   int depth_ = 0;
+  size_t lists_ = 0;  // within so many lists
   std::string key_, within_;
   int64_t id_ = 0;
   double time_s_ = 0;

@@ -242,7 +242,11 @@ TEST_CASE("JSON that is not Pathfinder's is refused with one sentence", "[trajec
   refuses(read_text(R"({"1":{"0":{"isActive":true}}})"), "occupant 1 at 0 s has no \"position\"");
   refuses(read_text(R"({"1":{"0":{"position":{"x":"a","y":1,"z":0}}}})"),
           "a text stands where a coordinate");
-  refuses(read_text(R"({"1":{"0":{"position":[1,2,3]}}})"), "a list is none");
+  refuses(read_text(R"({"1":{"0":{"position":[1,2,3]}}})"), "has no \"position\"");
+  refuses(read_text(R"({"1":{"0":{"position":{"x":[1],"y":2,"z":3}}}})"),
+          "a list stands where a coordinate has to be");
+  refuses(read_text(R"({"1":[{"position":{"x":1,"y":2,"z":3}}]})"),
+          "a list stands where an object of occupants and times has to be");
   refuses(read_text(R"({"1":{"0":{"position":{"x":{"x":{}}}}}})"), "nested more deeply");
   refuses(read_text(replaced(pathfinder_json, "\"1.0\":{\"position\":{\"x\":2.0",
                              "\"0.50\":{\"position\":{\"x\":2.0")),

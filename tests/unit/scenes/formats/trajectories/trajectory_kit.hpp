@@ -182,7 +182,8 @@ inline const std::string pathfinder_csv =
 
 inline const std::string pathfinder_json =
     R"({"3":{"0.0":{"position":{"x":5.0,"y":2.0,"z":0.0},"velocity":{"x":1,"y":0,"z":0},)"
-    R"("isActive":true},"0.5":{"position":{"x":5.5,"y":2,"z":0},"isActive":true},)"
+    R"("isActive":true},"0.5":{"position":{"x":5.5,"y":2,"z":0},"isActive":true,)"
+    R"("tagsApplied":["lastGoalStarted",{"position":{"x":7}},[false]]},)"
     R"("1.0":{"position":{"x":9,"y":2,"z":0},"isActive":false}},)"
     R"("7":{"1.0":{"position":{"x":2.0,"y":2.0,"z":3.0},"isActive":true},)"
     R"("0.0":{"isActive":true,"position":{"x":1.0,"y":2.0,"z":3.0}},)"
