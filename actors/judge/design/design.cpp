@@ -224,8 +224,8 @@ class DesignRun {
 
   Result<void> prepare() {
     progress_("inspecting the scene", no_objective, 0);
-    if (const auto& smoke = scenarios_in_smoke(); !smoke.empty())
-      if (auto ok = check_smoke_stage(*scene_, smoke); !ok) return ok.problem();
+    if (!scenarios_in_smoke().empty())
+      if (auto ok = check_smoke_stage(scene_, smoke_options()); !ok) return ok.problem();
     auto scenario = judged_scenario(*scene_, options_.scenario);
     if (!scenario) return scenario.problem();
     scenario_ = std::move(scenario).value();
@@ -495,6 +495,17 @@ class DesignRun {
     return options_.in_smoke.empty() ? scene_->design->in_smoke : options_.in_smoke;
   }
 
+  SmokeStageOptions smoke_options() const {
+    SmokeStageOptions out;
+    out.scenarios = scenarios_in_smoke();
+    out.seed = options_.seed;
+    out.threads = options_.threads;
+    out.seconds = options_.smoke_seconds;
+    out.scene_at = options_.scene_at;
+    out.people = options_.people;
+    return out;
+  }
+
   JudgedLayout contender(std::string name, PlacedLayout layout, const Layout& chosen) const {
     JudgedLayout out;
     out.name = std::move(name);
@@ -535,14 +546,7 @@ class DesignRun {
       const auto letter = static_cast<char>('A' + layouts.size());
       layouts.push_back(contender(std::string(1, letter), std::move(layout), chosen));
     }
-    SmokeStageOptions asked;
-    asked.scenarios = scenarios_in_smoke();
-    asked.seed = options_.seed;
-    asked.threads = options_.threads;
-    asked.seconds = options_.smoke_seconds;
-    asked.scene_at = options_.scene_at;
-    asked.people = options_.people;
-    auto stage = judge_in_smoke(std::move(layouts), asked, interrupt_, tell);
+    auto stage = judge_in_smoke(std::move(layouts), smoke_options(), interrupt_, tell);
     if (!stage) return stage.problem();
     if (!stage->layouts.empty()) out_.smoke = std::move(stage).value();
     return {};

@@ -1,5 +1,7 @@
 #include "actors/judge/design/layout_people.hpp"
 
+#include <algorithm>
+
 #include "actors/judge/walk/walk_scene.hpp"
 
 namespace luxodus {
@@ -28,6 +30,18 @@ StatesToAssess states_with(const std::shared_ptr<const SceneDescription>& varian
   return out;
 }
 
+WalkRequest request_of(const std::shared_ptr<const SceneDescription>& variant,
+                       const PeopleQuestion& question, const std::string& scenario) {
+  WalkRequest out{.states = states_with(variant, question.scene_at),
+                  .options = {},
+                  .walk = question.walk,
+                  .people = question.people};
+  out.options.scenario = scenario;
+  out.options.seed = question.seed;
+  out.options.threads = question.threads;
+  return out;
+}
+
 PeopleUnread unread_in(const std::vector<WalkedPerson>& walks, double step_s) {
   PeopleUnread out;
   for (const WalkedPerson& walked : walks)
@@ -42,20 +56,21 @@ PeopleUnread unread_in(const std::vector<WalkedPerson>& walks, double step_s) {
 
 }  // namespace
 
+Result<void> check_followed_people(const std::shared_ptr<const SceneDescription>& scene,
+                                   const PeopleQuestion& question) {
+  for (const std::string& scenario : question.scenarios)
+    if (const auto walls = check_walk(request_of(scene, question, scenario)); !walls)
+      return walls.problem();
+  return {};
+}
+
 Result<PeopleUnread> people_unread(const std::shared_ptr<const SceneDescription>& variant,
                                    const PeopleQuestion& question,
                                    const std::atomic<bool>& interrupt,
                                    const AssessProgress& progress) {
   PeopleUnread worst;
   for (const std::string& scenario : question.scenarios) {
-    WalkRequest request{.states = states_with(variant, question.scene_at),
-                        .options = {},
-                        .walk = question.walk,
-                        .people = question.people};
-    request.options.scenario = scenario;
-    request.options.seed = question.seed;
-    request.options.threads = question.threads;
-    const auto walked = walk_scene(request, interrupt, progress);
+    const auto walked = walk_scene(request_of(variant, question, scenario), interrupt, progress);
     if (!walked) return walked.problem();
     const PeopleUnread here = unread_in(walked->walks, question.walk.step_s);
     worst.all_s = here.all_s;

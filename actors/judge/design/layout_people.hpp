@@ -32,6 +32,11 @@ struct PeopleQuestion {
   int threads = 1;
 };
 
+/// What people_unread checks before it traces anything: the people do not depend on the layout, so
+/// a design asks this of the scene before it searches. Errors: as check_walk.
+Result<void> check_followed_people(const std::shared_ptr<const SceneDescription>& scene,
+                                   const PeopleQuestion& question);
+
 /// For a layout, as the scene that contains it. Requires: people, a scenario. Errors: as
 /// walk_scene; `interrupt`.
 Result<PeopleUnread> people_unread(const std::shared_ptr<const SceneDescription>& variant,

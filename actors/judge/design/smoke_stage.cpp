@@ -38,6 +38,10 @@ Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
   return std::optional(std::move(out));
 }
 
+PeopleQuestion question_of(const SmokeStageOptions& options) {
+  return {options.people, {}, options.scenarios, options.scene_at, options.seed, options.threads};
+}
+
 /// Share of the time for the elimination rounds, if more follows them; and until the end of
 /// following people, if guidance over time comes after it.
 constexpr double share_of_race = 0.6, share_of_people = 0.85;
@@ -106,8 +110,7 @@ class Stage {
   /// Sets what people read with every judged layout, or with none if time is up or the user
   /// interrupts.
   Result<void> follow_people(const std::function<void(const std::string&)>& tell) {
-    const PeopleQuestion asked{
-        options_.people, {}, stage_.scenarios, options_.scene_at, options_.seed, options_.threads};
+    const PeopleQuestion asked = question_of(options_);
     for (JudgedLayout& one : stage_.layouts) {
       if (one.rounds == 0) continue;
       const auto found =
@@ -240,9 +243,10 @@ const JudgedLayout* SmokeStage::with_low_signs() const {
   return nullptr;
 }
 
-Result<void> check_smoke_stage(const SceneDescription& scene,
-                               const std::vector<std::string>& scenarios) {
-  for (const std::string& name : scenarios) {
+Result<void> check_smoke_stage(const std::shared_ptr<const SceneDescription>& described,
+                               const SmokeStageOptions& options) {
+  const SceneDescription& scene = *described;
+  for (const std::string& name : options.scenarios) {
     const auto scenario = find_scenario(scene, name);
     if (!scenario) return scenario.problem();
     if (!has_smoke(scene, scenario.value()))
@@ -255,7 +259,8 @@ Result<void> check_smoke_stage(const SceneDescription& scene,
     return problem_in(scene.file,
                       "to judge layouts in smoke the scene needs routes that people walk and signs "
                       "that they read: add [[route]] and [[sign]]");
-  return {};
+  return options.people.empty() ? Result<void>()
+                                : check_followed_people(described, question_of(options));
 }
 
 Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,

@@ -112,9 +112,9 @@ Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
                                   const std::atomic<bool>& interrupt,
                                   const std::function<void(const std::string&)>& progress);
 
-/// Checks the scenarios before anything is computed.
-/// Errors: no such scenario; a scenario without smoke; no route, or no sign.
-Result<void> check_smoke_stage(const SceneDescription& scene,
-                               const std::vector<std::string>& scenarios);
+/// Checks the scenarios and the people before anything is computed. Errors: no such scenario; a
+/// scenario without smoke; no route, or no sign; as check_followed_people.
+Result<void> check_smoke_stage(const std::shared_ptr<const SceneDescription>& scene,
+                               const SmokeStageOptions& options);
 
 }  // namespace luxodus

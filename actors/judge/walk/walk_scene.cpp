@@ -63,17 +63,11 @@ class SceneWalk {
       : request_(request), interrupt_(interrupt), progress_(progress) {}
 
   Result<WalkOfScene> run() {
+    const auto walls = check_walk(request_);
+    if (!walls) return walls.problem();
     const SceneDescription& scene = *request_.states.last;
     const auto scenario = judged_scenario(scene, request_.options.scenario);
     if (!scenario) return scenario.problem();
-    if (scene.signs.empty())
-      return problem_in(scene.file, "there is no sign in this scene that people could read");
-    if (auto ok = check_times(request_); !ok) return ok.problem();
-    if (auto ok = check_steps(request_.people, request_.walk.step_s, scene.file); !ok)
-      return ok.problem();
-    const auto walls =
-        check_walls(scene, scenario.value(), request_.people, request_.options.threads);
-    if (!walls) return walls.problem();
     out_.scenario = scenario->name;
     out_.walls = walls.value();
     if (request_.states.times_s.size() > 1) out_.times_s = request_.states.times_s;
@@ -182,6 +176,18 @@ class SceneWalk {
 };
 
 }  // namespace
+
+Result<WallCheck> check_walk(const WalkRequest& request) {
+  const SceneDescription& scene = *request.states.last;
+  const auto scenario = judged_scenario(scene, request.options.scenario);
+  if (!scenario) return scenario.problem();
+  if (scene.signs.empty())
+    return problem_in(scene.file, "there is no sign in this scene that people could read");
+  if (auto ok = check_times(request); !ok) return ok.problem();
+  if (auto ok = check_steps(request.people, request.walk.step_s, scene.file); !ok)
+    return ok.problem();
+  return check_walls(scene, scenario.value(), request.people, request.options.threads);
+}
 
 Result<WalkOfScene> walk_scene(const WalkRequest& request, const std::atomic<bool>& interrupt,
                                const AssessProgress& progress) {

@@ -28,8 +28,11 @@ struct WalkOfScene {
   double sure_errors = 0;  // as in SignEstimates; the largest of all groups
 };
 
-/// Errors: a person at a time outside of the states; as check_steps, check_walls and
-/// SignEstimates::make; a scene without signs; `interrupt`.
+/// What walk_scene checks before it traces anything. Errors: no such scenario; a scene without
+/// signs; a person at a time outside of the states; as check_steps and check_walls.
+Result<WallCheck> check_walk(const WalkRequest& request);
+
+/// Errors: as check_walk and SignEstimates::make; `interrupt`.
 Result<WalkOfScene> walk_scene(const WalkRequest& request, const std::atomic<bool>& interrupt,
                                const AssessProgress& progress);
 

@@ -12,6 +12,7 @@
 #include "tests/kit/replaced.hpp"
 #include "tests/kit/room_texts.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/kit/walkers.hpp"
 #include "tests/unit/actors/judge/design/design_scenes.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
 #include "tests/unit/actors/judge/design/smoke_corridor.hpp"
@@ -124,6 +125,19 @@ TEST_CASE("the sentences on layouts in smoke follow from their results", "[desig
     ended.end = end;
     CHECK(smoke_words(english, record_of(ended)).back().find(words) != std::string::npos);
   }
+}
+
+TEST_CASE("people who walk elsewhere are refused before a layout is sought", "[design][walk]") {
+  const test::TemporaryFolder folder;
+  DesignOptions options;
+  options.people = {test::walker_from({40, 0, 0}, {50, 0, 0}, 8)};
+  std::vector<std::string> told;
+  const auto result =
+      design(test::described(folder.write("scene.toml", smoky)), options, nobody,
+             [&](const std::string& what, double, double) { told.push_back(what); });
+  REQUIRE_FALSE(result);
+  CHECK_THAT(result.problem().text(), Catch::Contains("person 1 of \"people\""));
+  CHECK(told == std::vector<std::string>{"inspecting the scene"});
 }
 
 TEST_CASE("in a smoky corridor alternatives pass the rules and brighter signs are read farther",
