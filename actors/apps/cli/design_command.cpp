@@ -132,11 +132,16 @@ Result<ExitCode> tell_none(const SceneDescription& scene, const DesignResult& re
   return ExitCode::failure;
 }
 
+/// A pack has no design of its own.
+bool judges_in_smoke(const DesignCommandOptions& o, const SceneDescription& scene) {
+  return !o.design.in_smoke.empty() || (scene.design && !scene.design->in_smoke.empty());
+}
+
 /// Who are followed with the layouts that are judged in smoke; nobody unless asked for.
 Result<std::vector<PlacedPerson>> people_of(const DesignCommandOptions& o,
                                             const SceneDescription& scene) {
   if (!o.people && o.trajectories.empty()) return std::vector<PlacedPerson>();
-  if (o.design.in_smoke.empty() && scene.design->in_smoke.empty())
+  if (!judges_in_smoke(o, scene))
     return problem("people rank the layouts that are judged in smoke: add --in-smoke SCENARIO");
   auto people = people_asked(scene, o.scene, o.trajectories);
   if (!people) return people.problem();
@@ -190,13 +195,12 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
       return ok.problem();
   print_design(*scene, result.value());
   print_because(*scene, result.value());
-  const bool in_smoke = !o.design.in_smoke.empty() || !scene->design->in_smoke.empty();
   if (result->smoke) print_smoke(result.value());
   if (result->smoke && !o.design.people.empty() && !result->smoke->layouts.front().people)
     log_warning(
         "--smoke-time was over before people were followed with every layout: the routes rank "
         "them");
-  if (!result->smoke && in_smoke && !interrupt_flag())
+  if (!result->smoke && judges_in_smoke(o, *scene) && !interrupt_flag())
     log_warning("no layout was judged in smoke before --smoke-time was over");
   for (const char* file : {"design.html", "design.pdf", "layout.toml"})
     if (o.pdf || std::string_view(file) != "design.pdf")

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "actors/apps/cli/progress_line.hpp"
+#include "actors/judge/walk/wall_check.hpp"
 #include "scenes/formats/scene_file/scene_people.hpp"
 
 namespace luxodus::cli {
@@ -42,13 +43,9 @@ Option trajectories_option(std::string& file) {
 
 Result<PeopleAsked> people_asked(const SceneDescription& scene, const std::string& scene_file,
                                  const std::string& trajectories) {
+  if (auto ok = check_walkable(scene); !ok) return ok.problem();
   const auto groups = groups_asked(scene_file, trajectories);
   if (!groups) return groups.problem();
-  if (scene.people_are_bodies)
-    return problem_in(scene_file,
-                      "people who stand as bodies would look through their own heads: follow them "
-                      "in the scene without 'people_as_bodies' (luxodus walk --crowd-hides hides "
-                      "signs behind people)");
   PeopleAsked out;
   for (const PeopleSettings& group : groups.value()) {
     const WaitingLine waiting("reading " + group.file);

@@ -22,8 +22,8 @@ struct PeopleAsked {
 };
 
 /// The people of the scene, or those of `trajectories`, if it is given, by the only [[people]] of
-/// the scene. Errors: nobody; several [[people]] for one file; people who stand as bodies, and
-/// would look through their own heads; as read_trajectories and place_people.
+/// the scene. Errors: as check_walkable, read_trajectories and place_people; nobody; several
+/// [[people]] for one file.
 Result<PeopleAsked> people_asked(const SceneDescription& scene, const std::string& scene_file,
                                  const std::string& trajectories);
 

@@ -64,8 +64,6 @@ Result<ExitCode> walk(const WalkCommandOptions& o) {
   const AssessedStates states = assessed_states(o.scene, times_asked(o.at));
   const auto& scene = states.last;
   if (!scene) return exit_code_of(states.told);
-  if (scene->packed)
-    return problem_in(o.scene, "people walk in scene files: a pack does not hold all of them");
   auto people = people_asked(*scene, o.scene, o.trajectories);
   if (!people) return people.problem();
   const auto scenario = judged_scenario(*scene, o.assess.scenario);

@@ -73,6 +73,17 @@ bool goes_wrong(const Building& building, const GeometryAccess& access, const gl
 
 }  // namespace
 
+Result<void> check_walkable(const SceneDescription& scene) {
+  if (scene.packed)
+    return problem_in(scene.file, "people walk in scene files: a pack does not hold all of them");
+  if (scene.people_are_bodies)
+    return problem_in(scene.file,
+                      "people who stand as bodies would look through their own heads: take the "
+                      "scene without 'people_as_bodies' (luxodus walk --crowd-hides hides signs "
+                      "behind people)");
+  return {};
+}
+
 Result<std::unique_ptr<Building>> walls_alone(const SceneDescription& scene,
                                               const Scenario& scenario, int threads) {
   SceneDescription walls = without_measurements(scene);

@@ -25,6 +25,10 @@ struct WallCheck {
   }
 };
 
+/// Errors: a pack, which does not hold all that people walk in; people who stand as bodies, since
+/// they would look through their own heads.
+Result<void> check_walkable(const SceneDescription& scene);
+
 /// The building of only what nobody walks through: without doors, what is not there, and
 /// measurements. Errors: as compile_scene.
 Result<std::unique_ptr<Building>> walls_alone(const SceneDescription& scene,

@@ -65,6 +65,13 @@ std::vector<uint32_t> leading_signs(const SceneDescription& scene, const WaysOut
   return out;
 }
 
+/// Whether people reach the end of the named way from a cell, or of any if none is named.
+bool leads_out(WaysOut& ways, CellNumber from, std::optional<size_t> named = {}) {
+  for (size_t way = 0; way < ways.ways().size(); ++way)
+    if ((!named || named == way) && std::isfinite(ways.distance_to_end_m(way, from))) return true;
+  return false;
+}
+
 /// Column and row of a square of the floor.
 using Square = std::pair<int64_t, int64_t>;
 Square square_at(const FreeSpace& space, const glm::dvec2& place, double edge_m) {
@@ -107,9 +114,7 @@ class WalkersInScene {
 
  private:
   Result<void> check() {
-    if (scene_.packed)
-      return problem_in(scene_.file,
-                        "people walk in scene files: a pack does not hold all of them");
+    if (auto ok = check_walkable(scene_); !ok) return ok;
     if (auto ok = check_people(request_.people); !ok) return ok;
     if (!request_.within.empty() && within_ == nullptr)
       return problem_in(scene_.file,
@@ -136,10 +141,7 @@ class WalkersInScene {
     for (CellNumber cell = 0; cell < space.cells(); ++cell) {
       if (!space.is_free(cell)) continue;
       if (within_ != nullptr && !is_within(*within_, space.centre(cell), 0)) continue;
-      bool leads_out = false;
-      for (size_t way = 0; way < ways.ways().size() && !leads_out; ++way)
-        leads_out = (!named || named == way) && std::isfinite(ways.distance_to_end_m(way, cell));
-      if (leads_out) reached.push_back(cell);
+      if (leads_out(ways, cell, named)) reached.push_back(cell);
     }
     std::vector<CellNumber> out = indoors(walls, space, reached);
     if (auto ok = check_room(space, out.size()); !ok) return ok.problem();
@@ -207,10 +209,7 @@ class WalkersInScene {
     for (CellNumber cell = 0; cell < space.cells(); ++cell) {
       if (!space.is_free(cell)) continue;
       const glm::dvec2 place = space.centre(cell);
-      bool leads_out = false;
-      for (size_t way = 0; way < ways.ways().size() && !leads_out; ++way)
-        leads_out = std::isfinite(ways.distance_to_end_m(way, cell));
-      if (leads_out && taken.insert(square_at(space, place, apart_m)).second)
+      if (leads_out(ways, cell) && taken.insert(square_at(space, place, apart_m)).second)
         out.emplace_back(place, out_.floor_m + scene_.assessment.eye_heights_m.front());
     }
     return out;

@@ -38,8 +38,8 @@ struct WalkersWalked {
 };
 
 /// Errors: a floor that is not known; an unknown room; nowhere to stand, or less room than people;
-/// as check_people, FreeSpace::make, WaysOut::make, SignEstimates::make and walk_people; a pack;
-/// `interrupt`.
+/// as check_walkable, check_people, FreeSpace::make, WaysOut::make, SignEstimates::make and
+/// walk_people; `interrupt`.
 Result<WalkersWalked> walk_in_scene(const WalkersRequest& request,
                                     const std::atomic<bool>& interrupt,
                                     const AssessProgress& progress);
