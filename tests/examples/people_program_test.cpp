@@ -1,11 +1,9 @@
 // People who choose their way, as a user makes them: a sign that is read at the nearer exit draws
 // them there, smoke that hides it leaves them to the way by which they came in, and `walk` follows
 // them through no wall.
-#include <fmt/format.h>
-
 #include <catch2/catch.hpp>
 
-#include "tests/examples/program_kit.hpp"
+#include "tests/examples/smoky_corridor.hpp"
 
 using namespace luxodus::program;
 using Catch::Contains;
@@ -15,7 +13,7 @@ namespace {
 /// A corridor of 24 m with an exit at each end, a room beside it, and a sign over the exit in the
 /// west. The smoke is stated by each test.
 std::string two_exits(double extinction_per_m) {
-  return fmt::format(R"(
+  return R"(
 [[object]]
 name = "corridor"
 shape = "room"
@@ -36,43 +34,8 @@ shape = "box"
 low = [10, 2.4, 0]
 high = [24, 2.5, 3]
 material = "grey50"
-
-[[luminaire_type]]
-name = "lamp"
-file = "lamp.ldt"
-emergency = "non-maintained"
-emergency_flux = 200
-emergency_flux_is = "initial"
-maintenance_factor = 0.8
-end_of_duration_factor = 0.7
-
-[[luminaire]]
-name = "lamp"
-type = "lamp"
-position = [8, 1.2, 2.97]
-
-[[medium]]
-name = "smoke"
-kind = "homogeneous"
-extinction = {}
-albedo = 0.3
-phase = "hg"
-g = 0.6
-angstrom = 0
-
-[[sign]]
-name = "exit west"
-file = "exit.svg"
-smallest_detail = 0.016
-width = 0.4
-height = 0.2
-position = [0.02, 1.2, 2.2]
-facing = [1, 0, 0]
-mains_white = 500
-mains_green = 100
-emergency_white = 500
-emergency_green = 100
-
+)" + lamp_text("[8, 1.2, 2.97]") +
+         smoke_text(extinction_per_m) + sign_text("exit west", "[0.02, 1.2, 2.2]") + R"(
 [[sign.leads_to]]
 route = "west"
 arrow = "ahead"
@@ -106,16 +69,12 @@ eye_heights_m = [1.65]
 name = "fire"
 operation = "emergency"
 seconds_after_failure = 60
-)",
-                     extinction_per_m);
+)";
 }
 
 struct TwoExits {
   explicit TwoExits(double extinction_per_m) : place("corridor.toml", two_exits(extinction_per_m)) {
-    fs::copy_file(fs::path(LUX_SOURCE_DIR) / "scenes/library/luminaires/emergency_downlight.ldt",
-                  place.folder / "lamp.ldt");
-    fs::copy_file(fs::path(LUX_SOURCE_DIR) / "scenes/library/signs/exit_straight.svg",
-                  place.folder / "exit.svg");
+    copy_lamp_and_sign(place.folder);
   }
   Outcome people(const std::string& options) const {
     return place.luxodus("people " + place.scene + " --out " + file.string() + " " + options);

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tests/examples/program_kit.hpp"
+#include "tests/examples/smoky_corridor.hpp"
 #include "tests/kit/replaced.hpp"
 #include "tests/kit/small_fire.hpp"
 
@@ -15,15 +15,8 @@ using Catch::Contains;
 
 namespace {
 
-/// A sign on a west wall, with 500 cd/m2 of its white on mains.
-std::string sign_text(const std::string& name, const std::string& position, double mains_green,
-                      double emergency_white, double emergency_green) {
-  return fmt::format(
-      "\n[[sign]]\nname = \"{}\"\nfile = \"exit.svg\"\nsmallest_detail = 0.016\nwidth = 0.4\n"
-      "height = 0.2\nposition = {}\nfacing = [1, 0, 0]\nmains_white = 500\nmains_green = {}\n"
-      "emergency_white = {}\nemergency_green = {}\n",
-      name, position, mains_green, emergency_white, emergency_green);
-}
+/// Dimmer than the usual sign.
+constexpr SignLight dim{60, 200, 30};
 
 /// A corridor of 20 m in smoke of 0.4 /m. A sign over its end in the west, and another behind a
 /// wall, which nobody in the corridor sees.
@@ -41,31 +34,9 @@ shape = "box"
 low = [0.5, 2.6, 0]
 high = [0.6, 4, 3]
 material = "grey50"
-
-[[luminaire_type]]
-name = "lamp"
-file = "lamp.ldt"
-emergency = "non-maintained"
-emergency_flux = 200
-emergency_flux_is = "initial"
-maintenance_factor = 0.8
-end_of_duration_factor = 0.7
-
-[[luminaire]]
-name = "lamp"
-type = "lamp"
-position = [10, 2, 2.97]
-
-[[medium]]
-name = "smoke"
-kind = "homogeneous"
-extinction = 0.4
-albedo = 0.3
-phase = "hg"
-g = 0.6
-angstrom = 0
-)" + sign_text("exit", "[0.02, 1.5, 2.2]", 60, 200, 30) +
-                              sign_text("behind the screen", "[0.02, 3.4, 2.2]", 60, 200, 30) +
+)" + lamp_text("[10, 2, 2.97]") +
+                              smoke_text(0.4) + sign_text("exit", "[0.02, 1.5, 2.2]", dim) +
+                              sign_text("behind the screen", "[0.02, 3.4, 2.2]", dim) +
                               R"(
 [assessment]
 irritant_smoke = false
@@ -109,7 +80,7 @@ file = "fire.smv"
 albedo = 0.2
 g = 0.6
 angstrom = 1
-)" + sign_text("exit", "[0.02, 1, 2.2]", 100, 500, 100) +
+)" + sign_text("exit", "[0.02, 1, 2.2]") +
                                R"([[people]]
 name = "office"
 file = "people.txt"
@@ -136,10 +107,7 @@ const std::string two_walkers = [] {
 struct SmokyWay {
   explicit SmokyWay(const std::string& more = "", const std::string& without = "")
       : place("corridor.toml", luxodus::test::replaced(smoky_way, without, "") + more) {
-    fs::copy_file(fs::path(LUX_SOURCE_DIR) / "scenes/library/luminaires/emergency_downlight.ldt",
-                  place.folder / "lamp.ldt");
-    fs::copy_file(fs::path(LUX_SOURCE_DIR) / "scenes/library/signs/exit_straight.svg",
-                  place.folder / "exit.svg");
+    copy_lamp_and_sign(place.folder);
     place.folder.write("people.txt", two_walkers);
   }
   Outcome walk(const std::string& options) const {
@@ -302,6 +270,22 @@ TEST_CASE("a time outside of the scene's clock is an error that says what to sta
   CHECK_THAT(run.err,
              Contains("is in the building from 0 to 16 s, and the scene is from 0 to 10 s") &&
                  Contains("time_shift_s"));
+}
+
+TEST_CASE("people do not walk in a pack, for which a layout is not sought either",
+          "[program][walk][failure]") {
+  const SmokyWay scene;
+  const std::string pack = (scene.place.folder / "corridor.pack").string();
+  const std::string people = (scene.place.folder / "people.txt").string();
+  REQUIRE(scene.place.luxodus("pack " + scene.place.scene + " --out " + pack).code == 0);
+  const std::string given = " --trajectories " + people;
+  for (const std::string& command :
+       {"walk " + pack + given, "people " + pack, "design " + pack + given + " --in-smoke fire"}) {
+    const Outcome run = scene.place.luxodus(command);
+    INFO(command << "\n" << run.err);
+    CHECK(run.code == 2);
+    CHECK_THAT(run.err, Contains("a pack does not hold all of them"));
+  }
 }
 
 TEST_CASE("people stand as bodies where they are at a time, if the scene says so",

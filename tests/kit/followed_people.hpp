@@ -5,6 +5,15 @@
 
 namespace luxodus::test {
 
+inline FollowedPerson followed(const std::string& group, int64_t id, double from_s) {
+  FollowedPerson out;
+  out.group = group;
+  out.id = id;
+  out.from_s = from_s;
+  out.to_s = from_s + 6;
+  return out;
+}
+
 /// One reads the sign "exit" for 4 of 7 s; the other reads none for 7 s.
 inline FollowedPeople two_followed() {
   FollowedPeople out;
@@ -16,10 +25,7 @@ inline FollowedPeople two_followed() {
   out.step_s = 1;
   out.field_of_view_deg = 120;
   out.cell_m = 0.5;
-  FollowedPerson reads;
-  reads.group = "guests";
-  reads.id = 7;
-  reads.to_s = 6;
+  FollowedPerson reads = followed("guests", 7, 0);
   reads.read_s = 4;
   reads.undecided_s = 2;
   reads.unread_s = 1;
@@ -27,11 +33,7 @@ inline FollowedPeople two_followed() {
   reads.first_read_s = 0;
   reads.last_read_s = 3;
   reads.signs_read = 1;
-  FollowedPerson blind;
-  blind.group = "guests <late>";
-  blind.id = 8;
-  blind.from_s = 20;
-  blind.to_s = 26;
+  FollowedPerson blind = followed("guests <late>", 8, 20);
   blind.unread_s = blind.longest_unread_s = 7;
   blind.mean_extinction = 1.25;
   out.people = {reads, blind};
