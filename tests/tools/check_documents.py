@@ -73,7 +73,8 @@ def check_links():
                 if re.match(r"^[a-z]+:", target):
                     continue
                 file, _, anchor = target.partition("#")
-                there = os.path.normpath(os.path.join(os.path.dirname(path), file)) if file else path
+                beside = os.path.join(os.path.dirname(path), file)
+                there = os.path.normpath(beside) if file else path
                 if not os.path.exists(os.path.join(ROOT, there)):
                     problems.append(f"{path}:{number}: {target} leads nowhere")
                 elif anchor and there.endswith(".md") and anchor not in slugs(read(there)):
@@ -142,7 +143,8 @@ def check_commands(program):
                 continue
             for word in words[len(command) :]:
                 option = re.match(r"^--[a-z][a-z-]*", word)
-                if option and not re.search(re.escape(option.group(0)) + r"(?![a-z-])", texts[command]):
+                told = option and re.escape(option.group(0)) + r"(?![a-z-])"
+                if option and not re.search(told, texts[command]):
                     where = " ".join(["luxodus", *command])
                     problems.append(f"{path}:{number}: '{where}' has no {option.group(0)}")
     if calls < 20:
@@ -204,9 +206,10 @@ def check_site(folder, program):
                 problems.append(f"{where}: {link} leads nowhere")
             elif anchor and there in pages and anchor not in pages[there].names:
                 problems.append(f"{where}: {link} names no heading")
-    for name in os.listdir(os.path.join(folder, "assets", "stylesheets")):
+    styles = os.path.join(folder, "assets", "stylesheets")
+    for name in os.listdir(styles):
         if name.endswith(".css"):
-            with open(os.path.join(folder, "assets", "stylesheets", name), encoding="utf-8") as file:
+            with open(os.path.join(styles, name), encoding="utf-8") as file:
                 if re.search(r"(url\(|@import )[\"']?(https?:)?//", file.read()):
                     problems.append(f"assets/stylesheets/{name} loads from elsewhere")
     if program:
