@@ -12,7 +12,7 @@ namespace luxodus {
 namespace {
 
 constexpr double head_radius_m = 0.13, shoulders_below_eyes_m = 0.12;
-/// Silhouettes look round; a body has some 300 triangles.
+/// Silhouettes look round; a person has 252 triangles.
 constexpr double mesh_tolerance_m = 0.004;
 /// Clothes.
 constexpr const char* material = "grey20";
