@@ -6,9 +6,11 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/examples/cluster_kit.hpp"
+#include "tests/kit/room_texts.hpp"
 
 using namespace luxodus::program;
 
@@ -63,6 +65,21 @@ class Page {
   beast::websocket::stream<net::ip::tcp::socket> socket_;
   std::set<std::pair<uint32_t, uint32_t>> lit_;
 };
+
+/// What the page fetches beside itself.
+std::string fetched(const std::string& port, const std::string& target) {
+  net::io_context context;
+  net::ip::tcp::socket socket(context);
+  net::connect(socket, net::ip::tcp::resolver(context).resolve("127.0.0.1", port));
+  beast::http::request<beast::http::empty_body> request{beast::http::verb::get, target, 11};
+  request.set(beast::http::field::host, "127.0.0.1:" + port);
+  beast::http::write(socket, request);
+  beast::flat_buffer buffer;
+  beast::http::response<beast::http::string_body> response;
+  beast::http::read(socket, buffer, response);
+  CHECK(response.result_int() == 200);
+  return response.body();
+}
 
 ClusterText viewed() {
   ClusterText text;
@@ -130,6 +147,42 @@ TEST_CASE("a live view of a folder shows the scene and state of its run", "[prog
   }
   view.kill(SIGINT);
   CHECK(view.wait() == 0);
+}
+
+TEST_CASE("a live view serves the people who walk, unless they stand as bodies",
+          "[program][view][walk]") {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder
+          .write("room.toml",
+                 "[[object]]\nname = \"hall\"\nshape = \"room\"\nlow = [0, -2, 0]\n"
+                 "high = [12, 2, 3]\nmaterial = \"grey50\"\n" +
+                     std::string(luxodus::test::middle_lamp))
+          .string();
+  const std::string people =
+      folder.write("people.txt", "# framerate: 1\n# id frame x/m y/m z/m\n7 0 1 1 0\n7 2 3 1 0\n")
+          .string();
+  Process view(LUX_PROGRAM, {"view", scene, "--port", "0", "--particles", "1k", "--trajectories",
+                             people, "--save-folder", folder.path().string()});
+  const auto json = nlohmann::json::parse(fetched(port_of(view), "/people.json"));
+  REQUIRE(json["people"].size() == 1);
+  CHECK(json["people"][0]["to"] == 2);
+  view.kill(SIGINT);
+  CHECK(view.wait() == 0);
+
+  const auto refused = [&](const std::string& words, const std::string& why) {
+    const Outcome run = run_luxodus(folder, "view --port 0 " + words);
+    INFO(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.find(why) != std::string::npos);
+  };
+  refused(scene + " --trajectories " + scene, "room.toml");
+  const std::string bodies = folder
+                                 .write("bodies.toml",
+                                        "include = [\"room.toml\"]\npeople_as_bodies = true\n"
+                                        "[[people]]\nname = \"guests\"\nfile = \"people.txt\"\n")
+                                 .string();
+  refused(bodies + " --at 1s --trajectories " + people, "people stand as bodies in this scene");
 }
 
 TEST_CASE("a folder without a run cannot be viewed, nor one with other files",

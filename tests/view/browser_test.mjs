@@ -92,7 +92,7 @@ test('the page fetches only its backdrops and the live connection', async () => 
   const fetched = await page.evaluate(() =>
     performance.getEntriesByType('resource').map((e) => e.name));
   assert.deepEqual(fetched.filter((name) => !name.startsWith('data:')),
-    [`${address}backdrops.json`]);
+    [`${address}backdrops.json`, `${address}people.json`]);
 });
 
 test('a held key walks, and a wall stops the walk', async () => {
@@ -601,6 +601,49 @@ test('one of two viewers edits, and the other may take over', async () => {
   await second.locator('#smoke:enabled').waitFor(patience);
   await page.locator('#smoke:disabled').waitFor({ state: 'attached', ...patience });
   await second.context().close();
+});
+
+/** Walks 1 m/s north between the sign and its reader, from whom the body hides the sign at 20 s. */
+const passer = ([, y]) => {
+  const feet = Array.from({ length: 41 }, (_, i) => [2.5, y - 2 + 0.1 * i, 0]);
+  return { step: 0.1, people: [{ eye_height: 1.65, from: 18, to: 22,
+    feet: Buffer.from(new Float32Array(feet.flat()).buffer).toString('base64') }] };
+};
+
+test('people walk by the clock and hide signs, and the light follows', async () => {
+  await settled();
+  const { position } = server.state.signs[0];
+  Object.assign(server, { people: passer(position), states: { from: 0, to: 60, step: 10, at: 0 } });
+  const second = await open();
+  // The first viewer of a building that nobody edits is its editor.
+  if (await second.locator('#smoke').isDisabled())
+    await second.getByRole('button', { name: 'take over' }).click();
+  await second.locator('#smoke:enabled').waitFor(patience);
+  const signLuminance = async (time) => {
+    await pull(second.locator('#clock'), time);
+    await second.waitForFunction((t) => window.luxodus.page.live.scene.states.at === t, time,
+      patience);
+    await settled(second);
+    return second.evaluate(() => window.luxodus.page.picture.luminanceAt(0, 0));
+  };
+  await second.evaluate((sign) =>
+    window.luxodus.page.walk.jump({ eye: [1.5, sign[1], 0.9], target: sign }), position);
+  const free = await signLuminance(10);
+  const hidden = await signLuminance(20);
+  await shot('people', second);
+  assert.ok(hidden < 0.5 * free, `${hidden} behind a person, ${free} without`);
+  assert.match(await second.locator('section', { hasText: 'Clock' }).textContent(),
+    /1 person · light and smoke of 20 s/);
+  await second.locator('#picture').focus();
+  await second.keyboard.press('k');
+  await second.waitForFunction(() => window.luxodus.page.panels.clock.time > 27, null, patience);
+  await second.waitForFunction(() => window.luxodus.page.live.scene.states.at === 30, null,
+    patience);
+  await second.keyboard.press('k');
+  assert.equal(await second.locator('#play').textContent(), 'Play');
+  await second.context().close();
+  Object.assign(server, { people: { step: 1, people: [] }, states: null });
+  server.begin();
 });
 
 test('the page fits on a phone', async () => {

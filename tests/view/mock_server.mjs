@@ -58,6 +58,9 @@ export class MockServer {
     this.seconds = null;
     this.relaid = false;
     this.gloss = [];
+    this.backdrops = [];
+    this.people = { step: 1, people: [] };
+    this.states = null;
   }
 
   async listen(port = 0) {
@@ -66,9 +69,10 @@ export class MockServer {
     const page = readFileSync(pageFile);
     this.http = createServer(({ url }, answer) => {
       const { pathname } = new URL(url, 'http://mock');
-      if (pathname === '/backdrops.json') {
+      const fixed = { '/backdrops.json': this.backdrops, '/people.json': this.people }[pathname];
+      if (fixed) {
         answer.writeHead(200, { 'content-type': 'application/json' });
-        answer.end(JSON.stringify(this.backdrops ?? []));
+        answer.end(JSON.stringify(fixed));
         return;
       }
       const here = pathname === '/';
@@ -106,7 +110,8 @@ export class MockServer {
         light: this.light?.(name) ?? 'new' }));
     return { type: 'scene', generation, name: 'mock', title: 'Two rooms and a fire in a bin',
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
-      scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low,
+      scenario: state.scenario, states: this.states, smoke: state.smoke, seconds: this.seconds,
+      low: room.low,
       high: room.high, relaid: this.relaid, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
       cameras: room.cameras, voxels: room.voxels, flames: room.flames,
@@ -147,7 +152,7 @@ export class MockServer {
 
   hear(viewer, message) {
     this.heard.push(message);
-    const edits = ['factor', 'scenario', 'smoke', 'time', 'move', 'add', 'remove', 'save'];
+    const edits = ['factor', 'scenario', 'smoke', 'state', 'time', 'move', 'add', 'remove', 'save'];
     if (edits.includes(message.type) && viewer !== this.editor)
       this.tell(viewer, { type: 'refused', why: 'somebody else is editing' });
     else this[`do_${message.type}`]?.(viewer, message);
@@ -211,6 +216,11 @@ export class MockServer {
 
   do_smoke(_, { factor }) {
     this.state.smoke = factor;
+    this.begin();
+  }
+
+  do_state(_, { at }) {
+    this.states = { ...this.states, at };
     this.begin();
   }
 

@@ -121,6 +121,9 @@ Result<ExitCode> view_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& 
     const std::shared_ptr<NodeExecutor> executor = std::move(started).value();
     hub.live.executor = executor;
     hub.first.scenario = cluster.run.scenario;
+    auto people = people_of_view(*scene, cluster.run.scene.string());
+    if (!people) return people.problem();
+    hub.people = std::move(people).value();
     HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
     const auto served = serve_view(scene, server, hub, [&] { return executor->goes_on(); });

@@ -16,12 +16,7 @@ Result<std::vector<PeopleSettings>> groups_asked(const std::string& scene_file,
                                                  const std::string& trajectories) {
   ReadPeople read = read_people_of_scene(scene_file);
   if (!read.problems.empty()) return read.problems.list().front();
-  if (trajectories.empty()) {
-    if (!read.people.empty()) return std::move(read.people);
-    return problem_in(scene_file,
-                      "nobody walks in this scene: state [[people]], or name a file by "
-                      "--trajectories");
-  }
+  if (trajectories.empty()) return std::move(read.people);
   if (read.people.size() > 1)
     return problem_in(scene_file,
                       "--trajectories replaces the file of one [[people]], and this scene has "
@@ -44,6 +39,16 @@ Option trajectories_option(std::string& file) {
 Result<PeopleAsked> people_asked(const SceneDescription& scene, const std::string& scene_file,
                                  const std::string& trajectories) {
   if (auto ok = check_walkable(scene); !ok) return ok.problem();
+  auto people = people_shown(scene, scene_file, trajectories);
+  if (people && people->forms.empty())
+    return problem_in(scene_file,
+                      "nobody walks in this scene: state [[people]], or name a file by "
+                      "--trajectories");
+  return people;
+}
+
+Result<PeopleAsked> people_shown(const SceneDescription& scene, const std::string& scene_file,
+                                 const std::string& trajectories) {
   const auto groups = groups_asked(scene_file, trajectories);
   if (!groups) return groups.problem();
   PeopleAsked out;

@@ -1,5 +1,5 @@
-// The people whom a command follows: those of the scene, or of a named file. Reads files; one
-// thread.
+// The people whom a command follows or shows: those of the scene, or of a named file. Reads files;
+// one thread.
 #pragma once
 
 #include <string>
@@ -25,6 +25,11 @@ struct PeopleAsked {
 /// the scene. Errors: as check_walkable, read_trajectories and place_people; nobody; several
 /// [[people]] for one file.
 Result<PeopleAsked> people_asked(const SceneDescription& scene, const std::string& scene_file,
+                                 const std::string& trajectories);
+
+/// The same people where nobody may walk, and the scene need not be one that can be walked.
+/// Errors: as read_trajectories and place_people; several [[people]] for one file.
+Result<PeopleAsked> people_shown(const SceneDescription& scene, const std::string& scene_file,
                                  const std::string& trajectories);
 
 }  // namespace luxodus::cli

@@ -10,7 +10,9 @@
 #include <cstring>
 
 #include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/people_asked.hpp"
 #include "actors/apps/cli/signals.hpp"
+#include "actors/apps/view/people.hpp"
 #include "runtime/core/log.hpp"
 #include "runtime/http/served_names.hpp"
 
@@ -54,6 +56,19 @@ SceneAtTime times_of_view(const std::string& file, const SceneDescription& scene
   if (!scene.people_are_bodies) return reader_of_times(file, scene, FireFrames::between);
   log_info("people stand as bodies: the view shows one time, which --at chooses");
   return {};
+}
+
+Result<std::string> people_of_view(const SceneDescription& scene, const std::string& file,
+                                   const std::string& trajectories) {
+  if (!scene.people_are_bodies) {
+    const auto people = people_shown(scene, file, trajectories);
+    return people ? people_json(people->people) : people.problem();
+  }
+  if (!trajectories.empty())
+    return problem_in(file,
+                      "people stand as bodies in this scene: leave out --trajectories, or "
+                      "people_as_bodies");
+  return people_json({});
 }
 
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,

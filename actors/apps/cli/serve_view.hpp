@@ -11,6 +11,12 @@ namespace luxodus::cli {
 /// people stand as bodies: the page has the surfaces of one state.
 SceneAtTime times_of_view(const std::string& file, const SceneDescription& scene);
 
+/// The people whom a live view shows walking, as people_json: those of the scene, or of
+/// `trajectories`, if it is given. Nobody, where they stand as bodies. Errors: as people_shown and
+/// people_json; `trajectories` where people stand as bodies.
+Result<std::string> people_of_view(const SceneDescription& scene, const std::string& file,
+                                   const std::string& trajectories = "");
+
 /// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
 /// `goes_on`: an error where whoever traces cannot, which ends the view. Errors: that; a pack; an
 /// address that is none, a port that is taken; a folder that nothing can be saved in.

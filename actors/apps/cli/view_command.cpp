@@ -7,6 +7,7 @@
 #include "actors/apps/cli/finished_run.hpp"
 #include "actors/apps/cli/load_scene.hpp"
 #include "actors/apps/cli/nodes_option.hpp"
+#include "actors/apps/cli/people_asked.hpp"
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/apps/cli/serve_view.hpp"
 #include "actors/apps/cli/signals.hpp"
@@ -24,6 +25,7 @@ struct ViewOptions {
   LiveOptions live;
   std::string scenario;
   std::string at;
+  std::string trajectories;
   std::string save_folder = ".";
   std::string particles = "100M";
   int nodes = 0;
@@ -51,6 +53,8 @@ Result<ExitCode> view(const ViewOptions& options) {
   if (!found) return found.problem();
   if (const auto refused = refused_by_inspection(scene, {found.value()}, options.live.threads))
     return exit_code_of(*refused);
+  auto people = people_of_view(*scene, wanted->scene_file, options.trajectories);
+  if (!people) return people.problem();
   install_interrupt_handler();
   const SceneAtTime scene_at = times_of_view(wanted->scene_file, *scene);
   LiveStates states(scene, scene_at);
@@ -60,6 +64,7 @@ Result<ExitCode> view(const ViewOptions& options) {
   hub.live.judged = FrameScenes::of(*scene, wanted->scene_file, wanted->at_s);
   hub.live.particles = parse_count(options.particles).value();
   hub.first.scenario = scenario;
+  hub.people = std::move(people).value();
   if (options.nodes > 0) {
     NodesOptions of_nodes;
     of_nodes.nodes = options.nodes;
@@ -95,6 +100,7 @@ Command view_command() {
                 "State of the building",
                 {.form = Form::name, .otherwise = "the first, or the folder's"}},
                at_option(o->at),
+               trajectories_option(o->trajectories),
                {"--port", &o->server.port, "Port of the page; 0: any that is free"},
                {"--address", &o->server.address, "Address to listen on"},
                {"--allow-host",

@@ -31,6 +31,7 @@ struct HubOptions {
   SceneEdits first;
   std::filesystem::path save_folder;  // folder for saved variants
   ViewPictureLimits pictures = {};
+  std::string people = R"({"step":1,"people":[]})";  // as people_json: nobody walks
 };
 
 class ViewHub final : private LiveAudience {
@@ -46,6 +47,8 @@ class ViewHub final : private LiveAudience {
   size_t viewers() const { return viewers_.size(); }
   /// Drawings under plans, as JSON text: made once at the start, since no edit changes them.
   const std::string& backdrops() const { return backdrops_; }
+  /// People who walk, as JSON text.
+  const std::string& people() const { return options_.people; }
 
  private:
   void begins(const LiveGeneration& generation) override;

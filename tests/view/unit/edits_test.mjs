@@ -7,6 +7,7 @@ function display() {
   const told = { drawn: 0, settled: 0 };
   const picture = {
     surfaces: { shine: () => (told.drawn += 1) },
+    people: { shine: () => {} },
     smoke: { shine: () => {}, flames: { shine: () => {} } },
     signs: { shine: () => {} },
     lamps: { shine: () => {} },

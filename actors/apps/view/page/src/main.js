@@ -9,11 +9,12 @@ import { byId, el } from './panel/dom.js';
 import { Panels } from './panel/panels.js';
 import { sizeOf } from './panel/traced.js';
 import { toast } from './panel/toasts.js';
-import { Connection, backdropsOf, liveAddress } from './protocol/connection.js';
+import { Connection, backdropsOf, liveAddress, peopleOf } from './protocol/connection.js';
 import { Live } from './state.js';
 import { CameraWalk } from './walk/camera_walk.js';
 import { Hands } from './walk/hands.js';
 import { keyActions } from './walk/keys.js';
+import { presenceOf } from './walk/people_at.js';
 
 class Page {
   constructor() {
@@ -40,6 +41,9 @@ class Page {
     backdropsOf(location.href)
       .then((drawings) => this.building.backdrops(drawings))
       .catch((fault) => toast(`The drawings under the plan are not shown: ${fault.message}`));
+    peopleOf(location.href)
+      .then((walkers) => this.walkers(walkers))
+      .catch((fault) => toast(`The people who walk are not shown: ${fault.message}`));
     new ResizeObserver(() => this.walk.resize(canvas)).observe(canvas);
     this.last = performance.now();
     requestAnimationFrame((now) => this.tick(now));
@@ -55,6 +59,7 @@ class Page {
       smooth: (on) => light.smooth(on),
       marks: (on) => building.showMarks(on),
       suggest: (answer) => building.showSuggestion(answer),
+      placed: (time) => building.placePeople(time),
       selection: {
         nudge: (way, metres) => this.selection.mover.nudge(way, metres),
         copy: () => this.selection.mover.copy(),
@@ -94,7 +99,7 @@ class Page {
     const { panels, building, light, selection, edits } = this;
     return {
       scene: (scene) => this.shown(scene),
-      geometry: (geometry) => (building.geometry(geometry), light.changed()),
+      geometry: (geometry) => (building.geometry(geometry), panels.clock.lay(), light.changed()),
       smoke: (generation) => (building.smoke(generation), light.changed()),
       light: (group) => light.arrived(group),
       fading: (now) => (light.fading(now), panels.top.fading(now)),
@@ -112,10 +117,16 @@ class Page {
     };
   }
 
+  walkers(walkers) {
+    this.building.setWalkers(walkers);
+    this.panels.clock.people(presenceOf(walkers));
+  }
+
   linked(state, words) {
     if (state === 'open') this.live.forget();
     else {
       this.panels.edits(false);
+      this.panels.clock.forget();
       this.panels.traced.fail();
     }
     this.panels.top.link(state, words);
@@ -136,6 +147,7 @@ class Page {
     const { scene } = this.live;
     if (!scene) return;
     this.panels.state.scene(scene);
+    this.panels.clock.forget();
     this.selection.keep(scene);
   }
 
@@ -152,8 +164,9 @@ class Page {
     const elapsed = Math.min(0.5, (now - this.last) / 1000);
     this.last = now;
     this.walk.goOn(this.hands.held, Math.min(0.1, elapsed));
+    this.panels.clock.tick(elapsed);
     this.light.update(now);
-    const { moving } = this.walk;
+    const moving = this.walk.moving || this.panels.clock.moving;
     this.walk.show();
     if (this.picture.draw(elapsed, moving)) {
       this.panels.rendition.show();
@@ -164,7 +177,8 @@ class Page {
 
   /** Nothing waits to be shown. */
   get settled() {
-    return this.light.settled && this.walk.shown && this.picture.complete;
+    return this.light.settled && this.walk.shown && !this.panels.clock.moving &&
+      this.picture.complete;
   }
 }
 

@@ -73,6 +73,8 @@ TEST_CASE("a server with a token requires it for page and socket", "[view]") {
   CHECK(answer(port, serving.get("/?token=secret")) == http_ok);
   CHECK(answer(port, serving.get("/backdrops.json")) == http_forbidden);
   CHECK(answer(port, serving.get("/backdrops.json?token=secret")) == http_ok);
+  CHECK(answer(port, serving.get("/people.json")) == http_forbidden);
+  CHECK(answer(port, serving.get("/people.json?token=secret")) == http_ok);
   CHECK(answer(port, serving.upgrade("/live")) == http_forbidden);
   CHECK(answer(port, serving.upgrade("/live?token=secret")) == http_switching);
 }

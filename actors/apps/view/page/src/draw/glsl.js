@@ -78,6 +78,32 @@ void main() {
   colour = vec4(clamp(light, 0.0, ${brightest}), ${signMark});
 }`;
 
+export const peopleVertex = `${common}
+in vec3 position, foot, light;
+in float head, eye;
+uniform mat4 modelViewMatrix, projectionMatrix;
+uniform float cut, shouldersBelowEyes;
+out vec3 shown;
+out float height;
+void main() {
+  float rise = head > 0.5 ? position.z + eye : position.z * max(eye - shouldersBelowEyes, 0.1);
+  vec3 place = foot + vec3(position.xy, rise);
+  shown = light;
+  height = place.z;
+  gl_Position = foot.z > cut ? vec4(0.0, 0.0, 2.0, 1.0)
+    : projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+}`;
+
+export const peopleFragment = `${common}
+in vec3 shown;
+in float height;
+uniform float above;
+out vec4 colour;
+void main() {
+  if (height < above) discard;
+  colour = vec4(clamp(shown, 0.0, ${brightest}), 1.0);
+}`;
+
 export const screenVertex = `
 in vec3 position;
 out vec2 at;

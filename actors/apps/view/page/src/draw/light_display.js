@@ -64,6 +64,7 @@ export class LightDisplay {
     const { live, picture } = this;
     const weights = new Map((live.scene?.groups ?? []).map((g) => [g.name, weightOf(g)]));
     picture.surfaces.shine(live.shown?.surfaces ?? null);
+    picture.people.shine(live.shown?.surfaces ?? null);
     picture.smoke.shine(live.shown?.air ?? null);
     for (const shining of [picture.signs, picture.lamps, picture.smoke.flames])
       shining.shine((name) => weights.get(name) ?? 1);

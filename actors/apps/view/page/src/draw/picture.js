@@ -8,6 +8,7 @@ import { composeFragment, meterFragment, screenVertex, toneFragment } from './gl
 import { Gloss, nothingBelow } from './gloss.js';
 import { Lamps } from './lamps.js';
 import { Marks } from './marks.js';
+import { People } from './people.js';
 import { Signs } from './signs.js';
 import { Smoke, smokePaces } from './smoke.js';
 import { Surfaces } from './surfaces.js';
@@ -93,6 +94,7 @@ export class Picture {
   makePasses() {
     const { shared } = this;
     this.surfaces = new Surfaces(shared);
+    this.people = new People(shared);
     this.signs = new Signs(shared);
     this.lamps = new Lamps(shared);
     this.gloss = new Gloss(shared, { target, screenPass });
@@ -100,7 +102,7 @@ export class Picture {
     this.smoke = new Smoke(shared, floats);
     this.marks = new Marks(shared.depth);
     this.world = new THREE.Scene();
-    this.world.add(this.surfaces.mesh);
+    this.world.add(this.surfaces.mesh, this.people.mesh);
     this.shining = new THREE.Scene();
     this.shining.add(this.gloss.object, this.signs.object, this.lamps.object);
     this.compose = screenPass(composeFragment, {

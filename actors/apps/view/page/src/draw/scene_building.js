@@ -2,10 +2,14 @@
 // signs, voxels of smoke, marks and outlines. Light belongs to light_display.js.
 import { toast } from '../panel/toasts.js';
 import { Building } from '../walk/building.js';
+import { peopleAt } from '../walk/people_at.js';
 
 export class SceneBuilding {
   constructor(picture, live, walk) {
     Object.assign(this, { picture, live, walk });
+    /** The triangles that one walks through. */
+    this.building = null;
+    this.walkers = { step: 1, people: [] };
   }
 
   scene({ signs, flames, lamps, lampTables, gloss }) {
@@ -18,9 +22,9 @@ export class SceneBuilding {
 
   geometry(geometry) {
     this.picture.surfaces.build(geometry);
-    const building = new Building(geometry);
-    this.picture.gloss.build(building, geometry);
-    this.walk.enter(building);
+    this.building = new Building(geometry);
+    this.picture.gloss.build(this.building, geometry);
+    this.walk.enter(this.building);
   }
 
   smoke({ scene, smoke }) {
@@ -45,6 +49,21 @@ export class SceneBuilding {
     if (!this.live.scene) return;
     this.picture.marks.place(this.live.scene, this.walk.inPlan, this.walk.motion.eye);
     this.picture.untoned = true;
+  }
+
+  /** People who walk: as of decodePeople. */
+  setWalkers(walkers) {
+    this.walkers = walkers;
+    this.picture.people.build(walkers.people.length);
+  }
+
+  /** Puts people where they are at a time; returns how many there are. */
+  placePeople(time) {
+    const people = peopleAt(this.walkers, time);
+    this.picture.people.place(people, this.building);
+    this.picture.people.shine(this.live.shown?.surfaces ?? null);
+    this.picture.again();
+    return people.length;
   }
 
   /** Drawings under plans. */

@@ -1,4 +1,5 @@
 // All panels around the picture: makes them, and passes on what all need.
+import { Clock } from './clock.js';
 import { byId } from './dom.js';
 import { Groups } from './groups.js';
 import { Inspect } from './inspect.js';
@@ -15,6 +16,7 @@ export class Panels {
   constructor(picture, wants) {
     this.top = new Top({ edit: (wanted) => wants.say({ type: 'edit', wanted }) });
     this.state = new StatePanel({ say: wants.say });
+    this.clock = new Clock({ say: wants.say, placed: wants.placed });
     this.groups = new Groups({ dim: wants.dim });
     this.suggest = new Suggest({ say: wants.say, show: wants.suggest });
     this.rendition = new Rendition(picture.exposure, () => (picture.untoned = true));
@@ -25,13 +27,14 @@ export class Panels {
     this.views = new Views(wants.views);
     this.traced = new Traced(wants.say);
     this.labels = new Labels(byId('labels'));
-    byId('panel').append(this.inspect.element, this.state.element, this.groups.element,
-      this.suggest.element, this.rendition.element, this.state.saveElement);
+    byId('panel').append(this.inspect.element, this.state.element, this.clock.element,
+      this.groups.element, this.suggest.element, this.rendition.element, this.state.saveElement);
     this.edits(false);
   }
 
   scene(scene) {
-    for (const part of [this.top, this.state, this.groups, this.suggest, this.views, this.labels])
+    for (const part of [this.top, this.state, this.clock, this.groups, this.suggest, this.views,
+      this.labels])
       part.scene(scene);
     this.edits(scene.editor);
   }
@@ -39,7 +42,7 @@ export class Panels {
   /** Whether this viewer may change the building. */
   edits(editor) {
     this.editor = editor;
-    for (const part of [this.top, this.state, this.groups, this.suggest, this.inspect])
+    for (const part of [this.top, this.state, this.clock, this.groups, this.suggest, this.inspect])
       part.edits(editor);
   }
 }

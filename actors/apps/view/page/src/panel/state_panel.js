@@ -9,10 +9,6 @@ const densityOf = (place) => (place <= none + 0.05 ? 0 : 10 ** place);
 const placeOf = (density) => (density <= 0 ? none : Math.log10(density));
 const wordsFor = (density) => (density === 0 ? 'none' : `× ${words(density, 2)}`);
 
-const secondsWords = (seconds) => `${Number(seconds.toPrecision(6))} s`;
-/** From the first state to the last. */
-const stepsOf = ({ from, to, step }) => Math.ceil((to - from) / step - 1e-9);
-
 /** A name with line breaks allowed after its underscores. */
 const breakable = (name) => el('span', {},
   ...name.split(/(?<=_)/).flatMap((part, i) => (i > 0 ? [el('wbr'), part] : [part])));
@@ -34,7 +30,7 @@ export class StatePanel {
     });
     const smoke = el('div', { className: 'line' },
       el('label', { htmlFor: 'smoke', textContent: 'Smoke' }), this.slider, this.value);
-    this.controls = el('fieldset', {}, this.scenarios, this.makeClock(), smoke, this.makeTime());
+    this.controls = el('fieldset', {}, this.scenarios, smoke, this.makeTime());
     this.element = section('Scenario', this.controls);
     this.saveControls = this.makeSave();
     this.saveElement = section('Keep', this.saveControls);
@@ -42,37 +38,6 @@ export class StatePanel {
 
   get density() {
     return Number(densityOf(Number(this.slider.value)).toPrecision(3));
-  }
-
-  /** Time of a scene that changes: the clock of fire, doors, mains and supplies. */
-  makeClock() {
-    this.clockValue = el('output', { textContent: '–' });
-    this.clock = el('input', {
-      type: 'range', id: 'clock', min: 0, max: 1, step: 1, value: 0,
-      on: {
-        input: () => (this.clockValue.textContent = secondsWords(this.stateTime)),
-        change: () => this.say({ type: 'state', at: this.stateTime }, 'state'),
-      },
-    });
-    this.clockLine = el('div', { className: 'line', hidden: true },
-      el('label', { htmlFor: 'clock', textContent: 'Time' }), this.clock, this.clockValue);
-    return this.clockLine;
-  }
-
-  /** The state at the slider's position: the last one is where the clock ends. */
-  get stateTime() {
-    const { from, to, step } = this.states;
-    return Math.min(to, from + step * Number(this.clock.value));
-  }
-
-  showClock(states) {
-    this.states = states;
-    this.clockLine.hidden = !states;
-    if (!states) return;
-    const { from, to, step, at } = states;
-    this.clock.max = stepsOf(states);
-    this.clock.value = at >= to ? this.clock.max : Math.round((at - from) / step);
-    this.clockValue.textContent = secondsWords(at);
   }
 
   /** Time since the mains failure, which determines onsets and decays. */
@@ -108,8 +73,7 @@ export class StatePanel {
       el('form', { className: 'line', on: { submit: save } }, name, submit));
   }
 
-  scene({ scenarios, scenario, states, smoke, seconds }) {
-    this.showClock(states);
+  scene({ scenarios, scenario, smoke, seconds }) {
     const now = scenarios.find(({ name }) => name === scenario);
     this.timeControls.hidden = !now || now.operation === 'mains';
     this.time(seconds);

@@ -2,6 +2,7 @@
 import { decodeBackdrops } from './decode_backdrops.js';
 import { decodeFrame, ProtocolError } from './decode_frame.js';
 import { decodeMessage } from './decode_message.js';
+import { decodePeople } from './decode_people.js';
 import { Outbox } from './outbox.js';
 
 const firstPauseMs = 500;
@@ -25,12 +26,20 @@ export function liveAddress(page) {
   return url.href;
 }
 
-/** The drawings under plans. They do not change while the program serves. */
-export async function backdropsOf(page, ask = fetch) {
-  const answer = await ask(beside(page, 'backdrops.json').href);
+/** What does not change while the program serves. */
+async function fixed(page, name, ask) {
+  const answer = await ask(beside(page, name).href);
   if (!answer.ok) throw new Error(`the program answers ${answer.status}`);
-  return decodeBackdrops(await answer.json());
+  return answer.json();
 }
+
+/** The drawings under plans. */
+export const backdropsOf = async (page, ask = fetch) =>
+  decodeBackdrops(await fixed(page, 'backdrops.json', ask));
+
+/** The people who walk. */
+export const peopleOf = async (page, ask = fetch) =>
+  decodePeople(await fixed(page, 'people.json', ask));
 
 export class Connection {
   /** `heard(messageOrFrame)`, `state('connecting' | 'open' | 'lost', words)`, `fault(words)`. */

@@ -16,6 +16,7 @@ export function keyActions(page) {
     KeyV: () => panels.rendition.next(),
     KeyM: () => panels.marks.click(),
     KeyR: () => page.render(),
+    KeyK: () => panels.clock.toggle(),
     KeyL: () => page.hands.lock(),
     Escape: () => selection.clear(),
     Equal: nearer,
