@@ -145,6 +145,9 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
     const { page: p } = window.luxodus;
     const { surfaces, air } = p.live.shown;
     const flame = p.live.scene.flames[0];
+    const { shapeSeed } = p.picture.smoke.flames.uniforms;
+    const [seed] = shapeSeed.value;
+    shapeSeed.value[0] = 0;  // the mean
     for (const sum of [surfaces, air]) sum.sum.fill(0);
     p.picture.signs.object.visible = false;
     p.walk.solid = false;
@@ -155,6 +158,7 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
     const tall = flame.size[2] / 2 / 2 / Math.tan((p.walk.view.fov * Math.PI) / 360);
     const at = (up, right) => p.picture.luminanceAt(right * tall * 0.8, up * tall);
     const found = [at(-0.7, 0), at(0.4, 0), at(1.3, 0), at(-0.7, 1), at(0.9, 0.4)];
+    shapeSeed.value[0] = seed;
     for (const sum of [surfaces, air]) sum.stained(true);
     p.live.settle();
     p.picture.signs.object.visible = p.walk.solid = true;
@@ -164,6 +168,53 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
   const [low, high, above, beside, corner] = seen;
   assert.ok(low > 100 && high > 20 && low > 2 * high, `${seen}`);
   assert.ok(Math.max(above, beside, corner) < 0.02 * low, `${seen}`);
+});
+
+test('the moments of a flame have the mean of the flame on each ray', async () => {
+  /** Luminances at places of the flame: of the mean, and of moments. */
+  const [mean, moments] = await page.evaluate(async () => {
+    const { page: p } = window.luxodus;
+    const { surfaces, air } = p.live.shown;
+    const { flames } = p.picture.smoke;
+    const flame = p.live.scene.flames[0];
+    for (const sum of [surfaces, air]) sum.sum.fill(0);
+    p.walk.solid = false;
+    const [x, y, z] = flame.low.map((low, k) => low + flame.size[k] / 2);
+    p.walk.jump({ eye: [x - 2, y, z], gaze: [1, 0, 0] });
+    p.light.changed();
+    await window.luxodus.settled();
+    const tall = flame.size[2] / 2 / 2 / Math.tan((p.walk.view.fov * Math.PI) / 360);
+    const places = [[-0.8, 0], [-0.4, 0], [0.1, 0], [-0.6, 0.15]];
+    const seen = () => {
+      p.picture.again();
+      for (let i = 0; i < 2; ++i) p.picture.addPicture(false);
+      return places.map(([up, right]) => p.picture.luminanceAt(right * tall, up * tall));
+    };
+    const { shapeSeed, flameTime } = flames.uniforms;
+    const [seed] = shapeSeed.value;
+    shapeSeed.value[0] = 0;
+    const ofMean = seen();
+    shapeSeed.value[0] = seed;
+    const ofMoments = [];
+    for (let k = 0; k < 150; ++k) {
+      flameTime.value = 0.37 * k;
+      ofMoments.push(seen());
+    }
+    flameTime.value = 0;
+    for (const sum of [surfaces, air]) sum.stained(true);
+    p.live.settle();
+    p.walk.solid = true;
+    p.light.changed();
+    return [ofMean, ofMoments];
+  });
+  for (const [i, luminance] of mean.entries()) {
+    const factors = moments.map((seen) => seen[i] / luminance);
+    const average = factors.reduce((sum, f) => sum + f) / factors.length;
+    const variance = factors.reduce((sum, f) => sum + (f - average) ** 2, 0) / factors.length;
+    const error = Math.sqrt(variance / factors.length);
+    assert.ok(variance > 0.01, `place ${i} hardly changes`);
+    assert.ok(Math.abs(average - 1) < 4.5 * error, `place ${i}: ${average} +- ${error}`);
+  }
 });
 
 /**

@@ -284,7 +284,8 @@ function flameCells([nx, ny, nz]) {
 
 export const flames = [
   { group: 'fire in a bin', low: [9.35, 0.75, 0.4], size: [0.5, 0.5, 0.9], count: [10, 10, 18],
-    colour: [9000, 3300, 600], cells: flameCells([10, 10, 18]) },
+    colour: [9000, 3300, 600], cells: flameCells([10, 10, 18]),
+    shape: { low: [9.37, 0.77, 0.42], size: [0.46, 0.46, 0.86], extinction: 1, seed: 2018 } },
 ];
 
 const lampAcross_m = 0.3;

@@ -192,7 +192,7 @@ void tell_rendered(const RenderedViews& rendered) {
 }
 
 void tell_flames(const CompiledScene& scene, const PictureOptions& picture) {
-  if (picture.flames_at_s && has_steady_flames(scene))
+  if (picture.flames_at_s && !steady_flames(scene).empty())
     log_info("pictures show a moment of the flames; --flames mean shows their mean");
 }
 

@@ -6,6 +6,7 @@
 
 #include "scenes/light/optics/media_set.hpp"
 #include "scenes/light/optics/spectrum.hpp"
+#include "scenes/light/transport/flame_moment.hpp"
 #include "scenes/light/transport/flame_points.hpp"
 
 namespace luxodus {
@@ -40,10 +41,24 @@ std::vector<double> glow_of(const CompiledScene& scene, const LiveFlame& flame,
   return out;
 }
 
+std::optional<LiveFlameShape> shape_of(const CompiledScene& scene, uint32_t medium) {
+  for (const SteadyFlame& flame : steady_flames(scene)) {
+    if (flame.medium != static_cast<int>(medium)) continue;
+    const Bounds box = flame.body->bounds();
+    LiveFlameShape out{box.low + scene.local_origin, box.high - box.low, 0, flame.seed};
+    for (int b = 0; b < scene.bands.count(); ++b)
+      out.extinction_per_m =
+          std::max(out.extinction_per_m, scene.media.tables().sigma_of(b, flame.component));
+    return out;
+  }
+  return std::nullopt;
+}
+
 LiveFlame flame_of(const CompiledScene& scene, const CompiledEmitter& e, ResidentData& data) {
   LiveFlame out;
   out.group = scene.groups[static_cast<size_t>(e.group)].name;
   out.medium = e.medium;
+  out.shape = shape_of(scene, e.medium);
   const auto points = flame_points(scene.media, e.medium, data);
   glm::dvec3 low(points.front()), high(points.front());
   for (const glm::vec3& p : points) {

@@ -119,6 +119,14 @@ Json luminaires_json(const SceneDescription& scene, const SceneEdits& edits) {
   return out;
 }
 
+Json shape_json(const std::optional<LiveFlameShape>& shape) {
+  if (!shape) return {};
+  return {{"low", place(shape->low)},
+          {"size", place(shape->size)},
+          {"extinction", shape->extinction_per_m},
+          {"seed", shape->seed}};
+}
+
 Json flames_json(const LiveGeneration& generation) {
   Json out = Json::array();
   if (!generation.flames) return out;
@@ -128,7 +136,8 @@ Json flames_json(const LiveGeneration& generation) {
                    {"size", place(flame.size)},
                    {"count", {flame.count.x, flame.count.y, flame.count.z}},
                    {"colour", {flame.colour[0], flame.colour[1], flame.colour[2]}},
-                   {"cells", base64(flame.cells)}});
+                   {"cells", base64(flame.cells)},
+                   {"shape", shape_json(flame.shape)}});
   return out;
 }
 

@@ -264,7 +264,7 @@ std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera, const
                              {"Scene", scene.description->name},
                              {"Scenario", scene.scenario.name},
                              {"View", camera.name}};
-  if (has_steady_flames(scene))
+  if (!steady_flames(scene).empty())
     out.emplace_back("Flames", view.flames_at_s
                                    ? fmt::format("a moment, at {:g} s; the light they cast and all "
                                                  "verdicts are of their mean",

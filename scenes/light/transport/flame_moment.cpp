@@ -16,26 +16,25 @@ bool is_flame(const CompiledScene& scene, int medium) {
 
 }  // namespace
 
-bool has_steady_flames(const CompiledScene& scene) {
-  const MediaTables& tables = scene.media.tables();
-  return std::any_of(tables.bodies.begin(), tables.bodies.end(), [&](const PlacedBody& body) {
-    return body.quadric >= 0 && tables.component(body.component).emitter >= 0 &&
-           is_flame(scene, tables.component(body.component).medium);
-  });
-}
-
-FlameMoment::FlameMoment(const CompiledScene& scene, double time_s)
-    : scene_(scene), time_s_(time_s) {
+std::vector<SteadyFlame> steady_flames(const CompiledScene& scene) {
+  std::vector<SteadyFlame> out;
   const MediaTables& tables = scene.media.tables();
   for (const PlacedBody& placed : tables.bodies) {
     if (placed.quadric < 0) continue;
     const MediaComponent& component = tables.component(placed.component);
     if (component.emitter < 0 || !is_flame(scene, component.medium)) continue;
-    const QuadricBody& body = tables.quadrics[static_cast<size_t>(placed.quadric)];
     // Seeds of a flame's fields are consecutive; those of two flames do not meet.
-    const auto seed = static_cast<uint32_t>(component.medium + 1) * 1009U;
-    flames_.push_back({component.medium, placed.component, &body, FlameShape(body, seed)});
+    out.push_back({component.medium, placed.component,
+                   &tables.quadrics[static_cast<size_t>(placed.quadric)],
+                   static_cast<uint32_t>(component.medium + 1) * 1009U});
   }
+  return out;
+}
+
+FlameMoment::FlameMoment(const CompiledScene& scene, double time_s)
+    : scene_(scene), time_s_(time_s) {
+  for (const SteadyFlame& flame : steady_flames(scene))
+    flames_.push_back({flame, FlameShape(*flame.body, flame.seed)});
 }
 
 void FlameMoment::meet(const Ray& ray, Real length, const PathBands& bands) {

@@ -14,8 +14,15 @@
 
 namespace luxodus {
 
-/// Whether a scene has flames that a moment changes: bodies that glow in its scenario.
-bool has_steady_flames(const CompiledScene& scene);
+/// A flame that a moment changes: a body that glows in the scenario.
+struct SteadyFlame {
+  int medium = -1, component = -1;
+  const QuadricBody* body = nullptr;
+  uint32_t seed = 0;  // of its shape; not 0
+};
+
+/// Requires: the scene outlives what is returned.
+std::vector<SteadyFlame> steady_flames(const CompiledScene& scene);
 
 class FlameMoment {
  public:
@@ -31,9 +38,7 @@ class FlameMoment {
   double on_light_from(double distance_m, size_t i) const;
 
  private:
-  struct Flame {
-    int medium = -1, component = -1;
-    const QuadricBody* body = nullptr;
+  struct Flame : SteadyFlame {
     FlameShape shape;
   };
   struct Met {

@@ -84,7 +84,7 @@ class ResolverPictureTracer final : public PictureTracer {
         scene_(scene) {}
 
   void show_flames_at(double time_s) override {
-    if (!has_steady_flames(scene_)) return;
+    if (steady_flames(scene_).empty()) return;
     eye_.emitters().show(&moment_.emplace(scene_, time_s));
   }
 

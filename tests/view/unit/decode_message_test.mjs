@@ -17,6 +17,9 @@ test('a scene is decoded field by field', () => {
   assert.equal(signs[0].texels.length, 128 * 64);
   assert.equal(voxels.total, 22 * 12 * 6);
   assert.equal(read(scene()).flames[0].cells.length, 10 * 10 * 18);
+  assert.equal(read(scene()).flames[0].shape.seed, 2018);
+  assert.equal(read({ ...scene(), flames: [{ ...scene().flames[0], shape: null }] })
+    .flames[0].shape, null);
   assert.equal(editor, false);
   assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
 });
@@ -47,6 +50,8 @@ test('a scene with a wrong field is refused, and the field named', () => {
   assert.throws(harmed((s) => (s.flames[0].count = [10, 10, 17])), named(/flames\[0\]\.cells/));
   assert.throws(harmed((s) => (s.flames[0].count = [65, 1, 1])), named(/flames\[0\]\.count/));
   assert.throws(harmed((s) => (s.flames[0].size = [0, 1, 1])), named(/flames\[0\]\.size/));
+  assert.throws(harmed((s) => (s.flames[0].shape.seed = 0.5)),
+    named(/flames\[0\]\.shape\.seed/));
   assert.throws(harmed((s) => (s.flames = Array(9).fill(s.flames[0]))), named(/9 flames/));
   assert.throws(harmed((s) => (s.lamps[1].shape = 'cube')), named(/lamps\[1\]\.shape/));
   assert.throws(harmed((s) => (s.lamps[2].table = 1)), named(/lamps\[2\]\.table/));

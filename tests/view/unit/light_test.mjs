@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { smokeSum, surfaceSum } from '../../../actors/apps/view/page/src/light/sum.js';
 import { placesOf, smooth, weld } from '../../../actors/apps/view/page/src/light/weld.js';
+import { erfc, normals } from '../../../actors/apps/view/page/src/draw/flame_shape.js';
 import { atlasOf } from '../../../actors/apps/view/page/src/draw/flames.js';
 import { toHalf } from '../../../actors/apps/view/page/src/protocol/half.js';
 
@@ -66,16 +67,29 @@ test('dimming one of thirty-two groups of 120 000 triangles prints its time', ()
 });
 
 test('flames share one texture, each with dark layers above and below', () => {
-  const flames = [{ count: [2, 1, 2], cells: Uint8Array.of(1, 2, 3, 4) },
-    { count: [1, 2, 1], cells: Uint8Array.of(5, 6) }];
+  const flames = [{ count: [2, 1, 2], size: [1, 0.5, 2], cells: Uint8Array.of(1, 2, 3, 0) },
+    { count: [1, 2, 1], size: [1, 1, 1], cells: Uint8Array.of(5, 6) }];
   const { size, bytes, parts } = atlasOf(flames);
   assert.deepEqual(size, [2, 2, 7]);
-  const at = (x, y, z) => bytes[(z * 2 + y) * 2 + x];
-  assert.deepEqual([at(0, 0, 1), at(1, 0, 1), at(0, 0, 2), at(1, 0, 2)], [1, 2, 3, 4]);
+  const at = (x, y, z) => bytes[2 * ((z * 2 + y) * 2 + x)];
+  assert.deepEqual([at(0, 0, 1), at(1, 0, 1), at(0, 0, 2), at(1, 0, 2)], [1, 2, 3, 0]);
   assert.deepEqual([at(0, 0, 5), at(0, 1, 5)], [5, 6]);
-  assert.equal(bytes.reduce((sum, byte) => sum + byte), 21);
+  assert.equal(bytes.filter((_, i) => i % 2 === 0).reduce((sum, byte) => sum + byte), 17);
   assert.deepEqual(parts[1], { offset: [0, 0, 5 / 7], scale: [0.5, 1, 1 / 7] });
   assert.deepEqual(atlasOf([]).size, [1, 1, 1]);
+  // Beside the glow stands the radius of a disc as large as what glows, over the wider side.
+  const radius = (x, z) => bytes[2 * (z * 2 * 2 + x) + 1];
+  assert.equal(radius(0, 1), Math.round(255 * Math.sqrt(0.5 / Math.PI)));
+  assert.equal(radius(0, 2), Math.round(255 * Math.sqrt(0.25 / Math.PI)));
+});
+
+test('values of the lattice of flames are standard normal', () => {
+  const values = normals();
+  const mean = (of) => values.reduce((sum, v) => sum + of(v), 0) / values.length;
+  assert.ok(Math.abs(mean((v) => v)) < 1e-6);
+  assert.ok(Math.abs(mean((v) => v * v) - 1) < 1e-6);
+  assert.ok(Math.abs(mean((v) => v ** 4) - 3) < 0.03);
+  assert.ok(Math.abs(erfc(0.5) - 0.4795001) < 2e-7 && Math.abs(erfc(-1) - 1.8427008) < 2e-7);
 });
 
 const square = {

@@ -21,6 +21,7 @@ class Page {
     const canvas = byId('picture');
     this.picture = new Picture(canvas);
     this.picture.hurried = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.picture.liveFlames = !this.picture.hurried;
     this.live = new Live((event, detail) => this.hears[event]?.(detail));
     this.light = new LightDisplay(this.picture, this.live);
     this.walk = new CameraWalk(this.picture, {
@@ -57,6 +58,7 @@ class Page {
       dim: (name, factor) => edits.dim(name, factor),
       solid: (on) => (walk.solid = on),
       smooth: (on) => light.smooth(on),
+      flames: (on) => (this.picture.liveFlames = on),
       marks: (on) => building.showMarks(on),
       suggest: (answer) => building.showSuggestion(answer),
       placed: (time) => building.placePeople(time),
@@ -166,7 +168,9 @@ class Page {
     this.walk.goOn(this.hands.held, Math.min(0.1, elapsed));
     this.panels.clock.tick(elapsed);
     this.light.update(now);
-    const moving = this.walk.moving || this.panels.clock.moving;
+    const burning = this.picture.flamesMove();
+    if (burning) this.picture.burn(elapsed);
+    const moving = this.walk.moving || this.panels.clock.moving || burning;
     this.walk.show();
     if (this.picture.draw(elapsed, moving)) {
       this.panels.rendition.show();
@@ -178,7 +182,7 @@ class Page {
   /** Nothing waits to be shown. */
   get settled() {
     return this.light.settled && this.walk.shown && !this.panels.clock.moving &&
-      this.picture.complete;
+      !this.picture.flamesMove() && this.picture.complete;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 #include <numbers>
 
+#include "scenes/light/transport/flame_moment.hpp"
 #include "tests/unit/actors/apps/view/live_room.hpp"
 
 using namespace luxodus;
@@ -118,6 +119,13 @@ TEST_CASE("a flame has its shape and its light, and voxels do not repeat its glo
   for (size_t c = 0; c < 3; ++c) luminance += of_channel[c] * shown.colour[c];
   CHECK(luminance * sum / 255 * cell.x * cell.y * cell.z * 4 * std::numbers::pi ==
         Approx(lumens).epsilon(0.01));
+  // What its shape at a moment follows from.
+  REQUIRE(shown.shape);
+  CHECK(shown.shape->low.z == Approx(0.5));
+  CHECK(shown.shape->size.x == Approx(0.6));
+  CHECK(shown.shape->size.z == Approx(1));
+  CHECK(shown.shape->extinction_per_m == Approx(1));
+  CHECK(shown.shape->seed == steady_flames(scene).front().seed);
   trace_some(run, 2);
   const auto geometry = geometry_of(scene, 1);
   REQUIRE(geometry.ok());

@@ -21,7 +21,7 @@ const eyeSeconds = { brighter: 1, darker: 120 };
 /**
  * What the cells of the meter say: the log-average luminance `level`; `shown`, the mean of the
  * largest luminances that a screen shows of the colours in view; `sign`, the luminance of the
- * brightest sign, 0 without any.
+ * brightest sign or steady flame, 0 without any.
  */
 export function readMeter(cells) {
   let log = 0;

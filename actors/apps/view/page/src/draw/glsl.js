@@ -1,6 +1,7 @@
 // The shaders. Luminances are cd/m2 in linear sRGB until `tone` makes them bytes.
 import { scaleHigh, scaleLow } from '../light/colour_map.js';
 import { luminanceWeights } from '../light/colours.js';
+import { flameShapeTools } from './flame_shape.js';
 import { toneTools } from './tone.js';
 import { whiteTools } from './white.js';
 
@@ -132,12 +133,15 @@ uniform sampler3D glow, beam;
 uniform vec3 low, size;
 uniform float cut, above, shift;
 uniform int steps;
+uniform bool flamesAlone;
 const int flamesMost = 8;
 uniform sampler3D flameCells;
 uniform int flameCount;
 uniform vec3 flameLow[flamesMost], flameSize[flamesMost], flameColour[flamesMost],
   flameOffset[flamesMost], flameScale[flamesMost];
+uniform float flameExtinction[flamesMost];
 out vec4 colour;
+${flameShapeTools('flamesMost')}
 float start(vec2 p) {
   float noise = fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
   return fract(noise + shift);
@@ -165,16 +169,25 @@ vec2 within(vec3 from, vec3 inverse, vec3 corner, vec3 across, float reach) {
   return vec2(max(0.0, max(nearer.x, max(nearer.y, nearer.z))),
     min(reach, min(farther.x, min(farther.y, farther.z))));
 }
-/** What a stretch of a flame sends, without what it takes away of itself. */
+/** What a stretch of a flame sends at this moment, without what it takes away of itself. */
 vec3 flameAlong(int i, vec3 from, vec3 ray, vec2 part, float first) {
   const int points = 12;
-  float sum = 0.0;
+  float step = (part.y - part.x) / float(points);
+  float sum = 0.0, within = 0.0, middle = 0.0, radius = 0.0;
   for (int k = 0; k < points; ++k) {
-    float t = mix(part.x, part.y, (float(k) + first) / float(points));
+    float t = part.x + (float(k) + first) * step;
     vec3 p = (from + t * ray - flameLow[i]) / flameSize[i];
-    sum += texture(flameCells, flameOffset[i] + clamp(p, 0.0, 1.0) * flameScale[i]).r;
+    vec2 here = texture(flameCells, flameOffset[i] + clamp(p, 0.0, 1.0) * flameScale[i]).rg;
+    sum += here.r;
+    within += here.r > 0.0 ? 1.0 : 0.0;
+    middle += here.r * t;
+    radius += here.r * here.g;
   }
-  return flameColour[i] * (sum / float(points)) * (part.y - part.x);
+  if (sum <= 0.0) return vec3(0.0);
+  float wide = max(flameSize[i].x, flameSize[i].y);
+  float factor = flamesAlone ? 1.0 : flameFactor(i, from + middle / sum * ray, ray, radius / sum * wide,
+    1.0 - exp(-flameExtinction[i] * within * step));
+  return flameColour[i] * (factor * sum * step);
 }
 /** Optical depth of smoke between two places of a ray. */
 float depthTo(vec3 from, vec3 ray, float t0, float t1, float first) {
@@ -206,6 +219,7 @@ void main() {
     float first = start(gl_FragCoord.xy);
     for (int i = 0; i < steps; ++i) {
       vec3 p = (from + (t0 + (float(i) + first) * dt) * direction - low) / size;
+      if (flamesAlone) break;
       vec4 here = texture(glow, p);
       float s = here.a;
       float passes = exp(-s * dt);
@@ -277,11 +291,13 @@ void main() {
 
 /**
  * Of the pixels with light in a cell: the sum of log2 luminance, their number, the sum of the
- * largest luminances that a screen shows of their colours; and the brightest pixel of a sign.
+ * largest luminances that a screen shows of their colours; and the brightest pixel of a sign, or of
+ * the means of steady flames, whose moments are brighter.
  */
 export const meterFragment = `${common}
 in vec2 at;
-uniform sampler2D picture;
+uniform sampler2D picture, flames;
+uniform float brighterThanMean;
 out vec4 colour;
 float brightestShown(vec3 c) {
   return clamp(luminance(c) / max(max(c.r, max(c.g, c.b)), 1e-12), 0.0, 1.0);
@@ -295,6 +311,7 @@ void main() {
     float y = luminance(c.rgb);
     if (y > 1e-5) sum += vec4(log2(y), 1.0, brightestShown(c.rgb), 0.0);
     if (c.a ${isMarked}) sum.a = max(sum.a, y);
+    sum.a = max(sum.a, brighterThanMean * luminance(texture(flames, at + o * cell).rgb));
   }
   colour = sum;
 }`;

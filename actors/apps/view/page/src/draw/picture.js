@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { scaleTexels } from '../light/colours.js';
 import { halfValues } from '../protocol/half.js';
 import { Exposure, renditions } from './exposure.js';
+import { brighterThanMean } from './flame_shape.js';
 import { composeFragment, meterFragment, screenVertex, toneFragment } from './glsl.js';
 import { Gloss, nothingBelow } from './gloss.js';
 import { Lamps } from './lamps.js';
@@ -18,12 +19,16 @@ import { adaptedWhite } from './white.js';
 /** This many pictures are accumulated before the page rests; fewer on a slow machine. */
 const pictures = { least: 6, most: 24, seconds: 4 };
 const meterCells = 32;
+/** The meter reads four places along each side of a cell. */
+const meterSamples = 4 * meterCells;
 const nothingCut = 1e9;
 const ratioMost = 2;
 /** Size of marks on the screen [px]. */
 const markAcross = 13;
 /** The resolution is lowered until a picture takes no longer than this. */
 const slowest_ms = { moving: 45, still: 300 };
+/** A machine that moves at this share of the resolution has no time for flames that move. */
+const slowMachine = 0.5;
 const coarsest = { moving: 0.2, still: 0.4 };
 
 function target(options = {}) {
@@ -68,6 +73,8 @@ export class Picture {
     this.size = [1, 1];
     this.shares = { moving: 1, still: 1 };
     this.learns = true;
+    /** Whether flames are to move. */
+    this.liveFlames = true;
     this.added = 0;
     this.makeTargets();
     this.makePasses();
@@ -79,9 +86,11 @@ export class Picture {
       surfaces: target({ depthBuffer: true, depthTexture: depth }),
       smoke: target(),
       sums: [target(), target()],
+      flames: target({ minFilter: THREE.NearestFilter }),
       meter: target({ type: THREE.FloatType, minFilter: THREE.NearestFilter }),
     };
     this.targets.meter.setSize(meterCells, meterCells);
+    this.targets.flames.setSize(meterSamples, meterSamples);
     this.shared = {
       depth: { value: depth },
       clipToWorld: { value: new THREE.Matrix4() },
@@ -113,7 +122,11 @@ export class Picture {
       weight: { value: 1 },
       smoky: { value: false },
     });
-    this.meterPass = screenPass(meterFragment, { picture: { value: null } });
+    this.meterPass = screenPass(meterFragment, {
+      picture: { value: null },
+      flames: { value: this.targets.flames.texture },
+      brighterThanMean: { value: brighterThanMean },
+    });
     const colours = new THREE.DataTexture(scaleTexels(), 256, 1);
     colours.minFilter = colours.magFilter = THREE.LinearFilter;
     colours.needsUpdate = true;
@@ -195,6 +208,21 @@ export class Picture {
     this.gloss.look(view.span || this.shared.cut.value < nothingCut ? null : view, aspect);
     this.marks.walls.visible = Boolean(view.span);
     this.marks.backdrops.group.visible = Boolean(view.span);
+    this.again();
+  }
+
+  /**
+   * Whether steady flames move. A slow machine shows one moment of them, so that it may rest and
+   * draw finely.
+   */
+  flamesMove() {
+    return this.liveFlames && this.camera !== undefined && this.smoke.present &&
+      this.shares.moving > slowMachine && this.smoke.flames.movesBefore(this.camera);
+  }
+
+  /** Lets flames go on by this many seconds. */
+  burn(elapsed) {
+    this.smoke.flames.uniforms.flameTime.value += elapsed;
     this.again();
   }
 
@@ -318,6 +346,7 @@ export class Picture {
   async meter() {
     if (this.metering) return;
     this.metering = true;
+    this.meterFlames();
     this.meterPass.uniforms.picture.value = this.finished.texture;
     this.pass(this.meterPass, this.targets.meter);
     const cells = new Float32Array(4 * meterCells * meterCells);
@@ -328,6 +357,19 @@ export class Picture {
     } finally {
       this.metering = false;
     }
+  }
+
+  /** The means of steady flames in view: exposure does not flicker with them. */
+  meterFlames() {
+    const { smoke, targets } = this;
+    if (!smoke.present || !smoke.flames.movesBefore(this.camera)) {
+      this.renderer.setRenderTarget(targets.flames);
+      this.renderer.clear();
+      return;
+    }
+    smoke.material.uniforms.flamesAlone.value = true;
+    this.pass(smoke.material, targets.flames);
+    smoke.material.uniforms.flamesAlone.value = false;
   }
 
   fadeOn(elapsed) {

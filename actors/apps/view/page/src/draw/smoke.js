@@ -51,6 +51,7 @@ export class Smoke {
         size: { value: new THREE.Vector3(1, 1, 1) },
         shift: { value: 0 },
         steps: { value: smokePaces.moving.steps },
+        flamesAlone: { value: false },
       },
     });
   }

@@ -22,6 +22,8 @@ export class Panels {
     this.rendition = new Rendition(picture.exposure, () => (picture.untoned = true));
     this.rendition.check('collide with walls', true, wants.solid);
     this.rendition.check('smooth light', true, wants.smooth);
+    this.rendition.check('moving flames', picture.liveFlames, wants.flames,
+      'Steady flames are shown at a moment. Their light, and verdicts, are those of the mean.');
     this.marks = this.rendition.check('marks', true, wants.marks);
     this.inspect = new Inspect(wants.selection);
     this.views = new Views(wants.views);

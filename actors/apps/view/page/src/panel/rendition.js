@@ -44,10 +44,10 @@ export class Rendition {
   }
 
   /** Another check box. */
-  check(label, checked, ticked) {
+  check(label, checked, ticked, title = '') {
     const box = el('input', { type: 'checkbox', checked,
       on: { change: () => ticked(box.checked) } });
-    this.extras.append(el('label', { className: 'check' }, box, ` ${label}`));
+    this.extras.append(el('label', { className: 'check', title }, box, ` ${label}`));
     return box;
   }
 

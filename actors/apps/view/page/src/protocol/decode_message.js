@@ -122,6 +122,17 @@ function voxelsOf(value, path) {
   return { low, edge: number(value.edge, `${path}.edge`, 1e-3, 1e3), count, total };
 }
 
+/** Of a steady flame; null for one that is shown as it is. */
+function flameShape(value, path) {
+  if (value === null || value === undefined) return null;
+  return {
+    low: place(value.low, `${path}.low`),
+    size: triple(value.size, `${path}.size`, 1e-6, 1e4),
+    extinction: number(value.extinction, `${path}.extinction`, 0, 1e6),
+    seed: whole(value.seed, `${path}.seed`, 1, 0xffffffff),
+  };
+}
+
 /** The glow of a flame within its box: a byte for each cell, x fastest. */
 function flame(value, path) {
   const f = record(value, path);
@@ -133,6 +144,7 @@ function flame(value, path) {
     count,
     colour: colour(f.colour, `${path}.colour`),
     cells: texelsOf(f.cells, `${path}.cells`, count[0] * count[1], count[2]),
+    shape: flameShape(f.shape, `${path}.shape`),
   };
 }
 
