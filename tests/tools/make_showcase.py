@@ -11,10 +11,14 @@ the same bytes. The functions are those of the package `showcase` beside this fi
 import pathlib
 import sys
 
+from showcase.auditorium import auditorium, slats
 from showcase.corridor import corridor
-from showcase.people import person
+from showcase.people import person, seated_person
+from showcase.seats import seat
+from showcase.slide import slide
 from showcase.stairwell import stairwell
-from showcase.textures import (carpet, ceiling_tile, parquet, plaster, prints, terrazzo, veneer)
+from showcase.textures import (carpet, ceiling_tile, parquet, plaster, prints, terrazzo, upholstery,
+                               veneer)
 
 
 def main():
@@ -22,8 +26,8 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else (
         pathlib.Path(__file__).resolve().parents[2] / "scenes/library/showcase")
     folder.mkdir(parents=True, exist_ok=True)
-    for make in (parquet, veneer, ceiling_tile, plaster, carpet, terrazzo, prints, corridor,
-                 stairwell, person):
+    for make in (parquet, veneer, ceiling_tile, plaster, carpet, terrazzo, prints, upholstery,
+                 slide, corridor, stairwell, auditorium, slats, seat, person, seated_person):
         if not only or make.__name__ in only:
             make(folder)
 

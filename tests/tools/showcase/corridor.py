@@ -1,9 +1,7 @@
 """The mesh of scenes/library/showcase/office_corridor.toml."""
 
-import math
-import random
-
-from showcase.fittings import DOOR_H, DOOR_W, detector, door, extinguisher, panel_frame
+from showcase.fittings import (DOOR_H, DOOR_W, detector, door, extinguisher, panel_frame,
+                               plant)
 from showcase.mesh import Mesh
 
 LENGTH, WIDTH, HEIGHT = 24.0, 2.4, 2.7
@@ -71,35 +69,6 @@ def bench(mesh, x, y):
         mesh.box("black", (at, y + 0.08, 0.39), (at + 0.04, y + 0.42, 0.42))
         for b in (y + 0.08, y + 0.38):
             mesh.box("black", (at, b, 0.0), (at + 0.04, b + 0.04, 0.39))
-
-
-def plant(mesh, x, y):
-    """A pot with blades of a snake plant."""
-    mesh.lathe("pot", (x, y, 0), [(0, 0), (0.11, 0), (0.15, 0.32), (0.14, 0.32), (0.135, 0.29)])
-    mesh.lathe("earth", (x, y, 0.285), [(0.14, 0), (0, 0.006)])
-    draw = random.Random(61)
-    for _ in range(22):
-        turn, lean = draw.uniform(0, 2 * math.pi), draw.uniform(0.02, 0.3)
-        tall, wide = draw.uniform(0.45, 0.95), draw.uniform(0.022, 0.034)
-        foot = (x + 0.08 * math.cos(turn) * draw.random(),
-                y + 0.08 * math.sin(turn) * draw.random())
-        out, side = (math.cos(turn), math.sin(turn)), (-math.sin(turn), math.cos(turn))
-        rows = []
-        for i in range(7):
-            t = i / 6
-            w = wide * (1 - t ** 3) * (0.7 + 0.6 * t * (1 - t))
-            bend = lean * t * t
-            middle = (foot[0] + out[0] * bend, foot[1] + out[1] * bend, 0.29 + tall * t)
-            fold = 0.35 * w
-            rows.append([(middle[0] + side[0] * w * s - out[0] * fold * (1 - abs(s)),
-                          middle[1] + side[1] * w * s - out[1] * fold * (1 - abs(s)), middle[2])
-                         for s in (-1, 0, 1)])
-        for low, high in zip(rows, rows[1:]):
-            for k in (0, 1):
-                corners = [low[k], low[k + 1], high[k + 1], high[k]]
-                kept = [c for i, c in enumerate(corners) if math.dist(c, corners[i - 1]) > 1e-6]
-                if len(kept) >= 3:
-                    mesh.face("leaf of plant", kept)
 
 
 def corridor(folder):

@@ -1,4 +1,7 @@
-"""What several buildings have: doors, extinguishers, detectors, frames of panels."""
+"""What several buildings have: doors, extinguishers, detectors, frames of panels, plants."""
+
+import math
+import random
 
 DOOR_W, DOOR_H, RECESS = 0.9, 2.1, 0.09
 
@@ -77,3 +80,32 @@ def panel_frame(mesh, x, y, height):
     mesh.box("white metal", (x - o, y + i, z0), (x + o, y + o, z1))
     mesh.box("white metal", (x - o, y - i, z0), (x - i, y + i, z1))
     mesh.box("white metal", (x + i, y - i, z0), (x + o, y + i, z1))
+
+
+def plant(mesh, x, y):
+    """A pot with blades of a snake plant."""
+    mesh.lathe("pot", (x, y, 0), [(0, 0), (0.11, 0), (0.15, 0.32), (0.14, 0.32), (0.135, 0.29)])
+    mesh.lathe("earth", (x, y, 0.285), [(0.14, 0), (0, 0.006)])
+    draw = random.Random(61)
+    for _ in range(22):
+        turn, lean = draw.uniform(0, 2 * math.pi), draw.uniform(0.02, 0.3)
+        tall, wide = draw.uniform(0.45, 0.95), draw.uniform(0.022, 0.034)
+        foot = (x + 0.08 * math.cos(turn) * draw.random(),
+                y + 0.08 * math.sin(turn) * draw.random())
+        out, side = (math.cos(turn), math.sin(turn)), (-math.sin(turn), math.cos(turn))
+        rows = []
+        for i in range(7):
+            t = i / 6
+            w = wide * (1 - t ** 3) * (0.7 + 0.6 * t * (1 - t))
+            bend = lean * t * t
+            middle = (foot[0] + out[0] * bend, foot[1] + out[1] * bend, 0.29 + tall * t)
+            fold = 0.35 * w
+            rows.append([(middle[0] + side[0] * w * s - out[0] * fold * (1 - abs(s)),
+                          middle[1] + side[1] * w * s - out[1] * fold * (1 - abs(s)), middle[2])
+                         for s in (-1, 0, 1)])
+        for low, high in zip(rows, rows[1:]):
+            for k in (0, 1):
+                corners = [low[k], low[k + 1], high[k + 1], high[k]]
+                kept = [c for i, c in enumerate(corners) if math.dist(c, corners[i - 1]) > 1e-6]
+                if len(kept) >= 3:
+                    mesh.face("leaf of plant", kept)

@@ -86,12 +86,45 @@ class Mesh:
                 if len(kept) >= 3:
                     self.face(part, kept)
 
-    def write(self, path, title):
+    def extrude(self, part, profile, low, high, bevel=0.0, metres=0.5):
+        """A convex profile of (x, z), anticlockwise seen along +y, from y = low to high.
+
+        Its ends are bevelled by so much; a picture measures `metres`.
+        """
+        xs, zs = [x for x, _ in profile], [z for _, z in profile]
+        middle = [(min(v) + max(v)) / 2 for v in (xs, zs)]
+        shrink = [1 - 2 * bevel / max(1e-9, max(v) - min(v)) for v in (xs, zs)]
+        small = [tuple(m + (c - m) * s for c, m, s in zip(at, middle, shrink)) for at in profile]
+        whole = ([(low, small), (low + bevel, profile), (high - bevel, profile), (high, small)]
+                 if bevel else [(low, profile), (high, profile)])
+        around = [0.0]
+        for a, b in zip(profile, profile[1:] + profile[:1]):
+            around.append(around[-1] + math.dist(a, b))
+        for (y0, one), (y1, two) in zip(whole, whole[1:]):
+            for i in range(len(profile)):
+                j = (i + 1) % len(profile)
+                corners = [(two[i][0], y1, two[i][1]), (two[j][0], y1, two[j][1]),
+                           (one[j][0], y0, one[j][1]), (one[i][0], y0, one[i][1])]
+                self.face(part, corners, [(y1 / metres, around[i] / metres),
+                                          (y1 / metres, around[i + 1] / metres),
+                                          (y0 / metres, around[i + 1] / metres),
+                                          (y0 / metres, around[i] / metres)])
+        for y, end in ((whole[0][0], whole[0][1]), (whole[-1][0], whole[-1][1][::-1])):
+            self.face(part, [(x, y, z) for x, z in end],
+                      [(x / metres, z / metres) for x, z in end])
+
+    def add(self, other, place):
+        """All of another mesh; `place` turns a place of it into one of this mesh."""
+        for part, faces in other.parts.items():
+            for corners, uv in faces:
+                self.face(part, [place(corner) for corner in corners], uv)
+
+    def write(self, path, title, digits=5):
         lines = [f"# {title} Written by tests/tools/make_showcase.py."]
         known = {"v": {}, "vt": {}}
 
         def number(kind, values):
-            text = f"{kind} " + " ".join(f"{v:.5g}" for v in values)
+            text = f"{kind} " + " ".join(f"{v:.{digits}g}" for v in values)
             if text not in known[kind]:
                 known[kind][text] = len(known[kind]) + 1
                 lines.append(text)

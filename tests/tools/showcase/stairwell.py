@@ -97,9 +97,7 @@ def stairwell(folder):
                    (1.2, 1.2))
         one = Mesh()
         door(one, 0.0, +1, x)
-        for part, faces in one.parts.items():
-            for corners, uv in faces:
-                mesh.face(part, [(a, b, c + z) for a, b, c in corners], uv)
+        mesh.add(one, lambda at, z=z: (at[0], at[1], at[2] + z))
     extinguisher(mesh, 1.75, 0.0, +1)
     for z in (STOREY - 0.2, 2 * STOREY - 0.2):
         mesh.lathe("white plastic", (1.3, 0.7, z - 0.055), [(0, 0), (0.15, 0), (0.165, 0.02),

@@ -200,3 +200,23 @@ def prints(folder):
             base = colours[0] if field < 0.42 else colours[1] if field < 0.62 else colours[2]
             return tuple(c + 0.02 * rough.at(u, v) for c in base)
         write_png(folder / f"print{number}.png", 330, 230, pixel, 3)
+
+
+def upholstery(folder):
+    """A woven fabric in two shades, plain weave with slubs: 0.25 m by 0.25 m."""
+    size, threads = 256, 64
+    slub, tone = Noise(64, 16, 81), Noise(6, 6, 82)
+    dark, light = (0.11, 0.27, 0.31), (0.33, 0.54, 0.57)
+
+    def pixel(x, y):
+        u, v = (x + 0.5) / size, (y + 0.5) / size
+        i, j = int(u * threads), int(v * threads)
+        warp = (i + j) % 2 == 0
+        a, b = u * threads % 1, v * threads % 1
+        across = a if warp else b
+        round_ = 1 - (2 * across - 1) ** 2
+        fleck = slub.at(u, v) if warp else slub.at(v, u)
+        return mixed(dark, light, 0.16 + 0.4 * round_ + 0.22 * fleck + 0.10 * tone.at(u, v)
+                     + (0.06 if warp else 0))
+
+    write_png(folder / "upholstery.png", size, size, pixel, 3)
