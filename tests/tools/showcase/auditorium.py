@@ -21,7 +21,7 @@ DOORS = ((0.7, 2.3), (11.7, 13.3))
 DOOR_H = 2.1
 SCREEN = ((4.466, 9.534), (1.2, 4.05))
 CARPET, PLASTER, VENEER = (1.0, 1.0), (1.2, 1.2), (0.9, 2.1)
-RAFTS = [2.75 + 2.6 * k for k in range(5)]
+RAFTS = [0.15 + 2.6 * k for k in range(6)]
 RAFT_X, RAFT_Y, RAFT_Z, SAG = 1.8, (1.3, 12.7), 5.1, 0.13
 
 
@@ -36,7 +36,7 @@ def riser(mesh, part, x, y0, y1, z0, z1, metres=CARPET):
 
 def nosing(mesh, x, y0, y1, z):
     """A strip of metal on the edge of a step, for contrast."""
-    mesh.box("nosing", (x - 0.004, y0 + 0.02, z - 0.03), (x + 0.045, y1 - 0.02, z + 0.003))
+    mesh.box("nosing", (x - 0.004, y0 + 0.02, z - 0.03), (x + 0.035, y1 - 0.02, z + 0.003))
 
 
 def rake(mesh):
@@ -162,7 +162,9 @@ def side_walls(mesh):
         piece("felt", 3.6, 15.6, 0, PANELLED, (1, 1))
         piece("panel", 15.6, LENGTH, 0, PANELLED, VENEER)
         piece("plaster", 0, LENGTH, PANELLED, HEIGHT, PLASTER)
-        strip("board", 0, LENGTH, PANELLED, PANELLED + 0.03, 0.075)
+        strip("board", 0, LENGTH, PANELLED, PANELLED + 0.03, 0.20)
+        a, b = sorted((y + side * 0.18, y + side * 0.20))
+        mesh.box("board", (0, a, PANELLED + 0.03), (LENGTH, b, PANELLED + 0.06))
         strip("skirting", 0, 3.6, 0, 0.08, 0.015)
         strip("skirting", 3.6, RAKE + 1, 0, 0.10, 0.06)
         for k in range(1, ROWS + 1):
@@ -206,19 +208,20 @@ def raft(mesh, x):
 
 
 def ceiling(mesh):
-    """The soffit, and below it five convex rafts on wires."""
+    """The soffit, and below it six convex rafts on wires."""
     mesh.panel("plaster", (0, 0, HEIGHT), (0, WIDTH, 0), (LENGTH, 0, 0), PLASTER)
     for x in RAFTS:
         raft(mesh, x)
         for y in (2.5, 5.5, 8.5, 11.5):
             for a in (x + 0.3, x + RAFT_X - 0.3):
                 mesh.lathe("steel", (a, y, RAFT_Z + 0.05), [(0.003, 0), (0.003, 1.05)], 6)
-        for k in range(6):
-            mesh.lathe("white metal", (x + RAFT_X / 2, 2.0 + 2.0 * k, RAFT_Z - 0.006),
-                       [(0.084, 0.004), (0.09, 0), (0.105, 0.001), (0.108, 0.008)], 32)
-    for x in (1.9, 6.6, 9.2, 14.4):
+        for way in (-0.35, 0.35):
+            for k in range(6):
+                mesh.lathe("white metal", (x + RAFT_X / 2 + way, 2.0 + 2.0 * k, RAFT_Z + 0.008),
+                           [(0.084, 0.003), (0.104, 0), (0.107, 0.009)], 20)
+    for x in (2.35, 7.65, 12.75):
         for y in (3.5, 10.5):
-            detector(mesh, x - 0.1 if x > 2 else x, y, HEIGHT)
+            detector(mesh, x, y, HEIGHT)
 
 
 def projector(mesh):

@@ -65,7 +65,7 @@ def slide(folder):
     sheet.fill(0, 0, WIDTH, 84, (0.10, 0.33, 0.38))
     sheet.fill(0, 84, WIDTH, 90, (0.90, 0.62, 0.22))
     sheet.text("LIGHT IN SMOKE", 48, 60, 36, 5.5, (0.97, 0.97, 0.96))
-    sheet.text("T = EXP(-K D)", 48, 190, 32, 4, ink)
+    sheet.text("T = EXP(-K D)", 48, 180, 26, 3.6, ink)
     for k, wide in enumerate((205, 240, 180)):  # lines of text that are too small to be read
         y = 240 + 50 * k
         sheet.fill(48, y, 58, y + 10, (0.90, 0.62, 0.22))
