@@ -98,15 +98,16 @@ def lectern(mesh, x, y, z):
     top = [(x - 0.30, z + 0.98), (x + 0.17, z + 1.08), (x + 0.17, z + 1.12), (x - 0.30, z + 1.02)]
     mesh.extrude("board", top, y - 0.34, y + 0.34)
     mesh.limb("black", (x + 0.1, y - 0.2, z + 1.1), (x + 0.02, y - 0.16, z + 1.36), 0.006, 0.005, 8)
-    mesh.limb("black", (x + 0.02, y - 0.16, z + 1.36), (x - 0.02, y - 0.14, z + 1.40), 0.012, 0.012,
-              10)
+    mesh.limb("black", (x + 0.02, y - 0.16, z + 1.36), (x - 0.02, y - 0.14, z + 1.40), 0.012,
+              0.012, 10)
     # A notebook: its lid, seen from behind.
-    lid = [(x + 0.03, z + 1.09), (x + 0.045, z + 1.09), (x + 0.125, z + 1.31), (x + 0.115, z + 1.31)]
+    lid = [(x + 0.03, z + 1.09), (x + 0.045, z + 1.09), (x + 0.125, z + 1.31),
+           (x + 0.115, z + 1.31)]
     mesh.extrude("grey plastic", lid, y - 0.06, y + 0.26)
 
 
 def stage_wall(mesh):
-    """The wall at x = 0: panels of wood with joints, two double doors, plaster above, the screen."""
+    """The wall at x = 0: panels of wood with joints, two double doors, the screen, plaster."""
     at = 0.0
     for y0, y1 in DOORS + ((WIDTH, WIDTH),):
         mesh.panel("panel", (0, at, 0), (0, y0 - at, 0), (0, 0, PANELLED), VENEER, (0, 7, 0))
@@ -181,7 +182,9 @@ def back_wall(mesh):
         y = 0.35 + 1.7 * k
         if 5.2 < y + 0.7 < 8.8:
             continue
-        mesh.box("fabric", (x - 0.05, y, z + 0.35), (x, y + 1.4, PANELLED + 0.3))
+        low, high = z + 0.35, PANELLED + 0.3
+        mesh.box("fabric", (x - 0.05, y, low), (x, y + 1.4, high), ("x0", "x1"))
+        mesh.panel("fabric", (x - 0.05, y + 1.4, low), (0, -1.4, 0), (0, 0, high - low), (0.5, 0.5))
     mesh.box("black", (x - 0.04, 5.6, 3.45), (x, 8.4, 4.45))
     mesh.box("night", (x - 0.045, 5.66, 3.51), (x - 0.04, 8.34, 4.39))
 
@@ -248,7 +251,7 @@ def auditorium(folder):
         part(mesh)
     bottle = Mesh()
     extinguisher(bottle, 0.0, 0.0, 1)
-    # From a wall along x, whose front looks along +y, to the stage wall, whose front looks along +x.
+    # It is drawn on a wall that looks along +y, and turned to the stage wall, which looks along +x.
     mesh.add(bottle, lambda at: (at[1], 2.68 - at[0], at[2]))
     mesh.write(folder / "auditorium.obj", "An auditorium of nine raked rows.")
 
