@@ -222,12 +222,14 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
   Json observers = Json::array(), cameras = Json::array();
   for (const Observer& o : scene.observers)
     observers.push_back({{"name", o.name}, {"eye", place(o.eye)}, {"gaze", place(o.gaze)}});
-  for (const Camera& c : scene.cameras)
+  for (const Camera& c : scene.cameras) {
+    if (c.cut_m) continue;  // a walker there would stand above the roof
     cameras.push_back({{"name", c.name},
                        {"eye", place(c.eye)},
                        {"target", place(c.target)},
                        {"up", place(c.up)},
                        {"fov_deg", c.vertical_fov_deg}});
+  }
   return {{"type", "scene"},
           {"generation", generation.number},
           {"name", scene.name},

@@ -70,7 +70,9 @@ EyePlace eye_of(const ProbeMeasure& p) {
 std::vector<EyePlace> eyes_of(const SceneDescription& scene, bool probes) {
   std::vector<EyePlace> out;
   for (const Observer& o : scene.observers) out.push_back(eye_of(o));
-  for (const Camera& c : scene.cameras) out.push_back(eye_of(c));
+  // A camera that cuts stands outside and looks past what is in its way.
+  for (const Camera& c : scene.cameras)
+    if (!c.cut_m) out.push_back(eye_of(c));
   if (probes)
     for (const ProbeMeasure& p : scene.probes) out.push_back(eye_of(p));
   return out;

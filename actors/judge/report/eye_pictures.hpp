@@ -1,5 +1,5 @@
-// Pictures from the eye for a report, and the scene and scenario that they state. It traces
-// nothing. Any thread.
+// Pictures for a report, from the eye and of the building on its cover, and the scene and scenario
+// that they state. It traces nothing. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,9 @@ inline constexpr uint64_t report_picture_bytes = uint64_t{16} << 20;
 /// Largest number of pictures in a report; a camera has up to three.
 inline constexpr size_t report_pictures = 60;
 }  // namespace limits
+
+/// The camera whose picture is the cover of a report; what a scene calls so takes its place.
+inline constexpr const char* cover_camera = "cover";
 
 /// A PNG picture for a report.
 struct ReportPicture {

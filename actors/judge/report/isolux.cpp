@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace luxodus {
 
 namespace {
+
+/// A wall is at most this far from the end of a line, in squares: the diagonal of one that the wall
+/// crosses.
+constexpr double squares_to_wall = 1.5;
 
 struct ValueGrid {
   glm::dvec2 corner{0};
@@ -118,6 +123,37 @@ std::vector<ContourLine> joined(std::vector<ContourLine> pieces, double spacing)
   return out;
 }
 
+/// Where a way of at most `reach` from a point, in a unit direction, first meets a wall.
+std::optional<glm::dvec2> wall_ahead(const glm::dvec2& from, const glm::dvec2& direction,
+                                     double reach, const std::vector<DrawnLine>& walls) {
+  double nearest = reach;
+  bool met = false;
+  for (const auto& [a, b] : walls) {
+    const glm::dvec2 wall = b - a, to = a - from;
+    const double across = direction.x * wall.y - direction.y * wall.x;
+    if (std::abs(across) < 1e-12) continue;
+    const double t = (to.x * wall.y - to.y * wall.x) / across;
+    const double on_wall = (to.x * direction.y - to.y * direction.x) / across;
+    if (t < 0 || t > nearest || on_wall < 0 || on_wall > 1) continue;
+    nearest = t;
+    met = true;
+  }
+  if (!met) return std::nullopt;
+  return from + direction * nearest;
+}
+
+/// Lines end where the squares that a wall crosses begin: goes on straight to the wall.
+void meet_walls(ContourLine& line, double spacing, const std::vector<DrawnLine>& walls) {
+  const double reach = squares_to_wall * spacing;
+  for (int end = 0; end < 2 && !line.closed && line.points.size() > 1; ++end) {
+    const glm::dvec2 last = line.points.back(), way = last - line.points[line.points.size() - 2];
+    if (glm::length(way) > 0)
+      if (const auto wall = wall_ahead(last, glm::normalize(way), reach, walls))
+        line.points.push_back(*wall);
+    std::reverse(line.points.begin(), line.points.end());
+  }
+}
+
 /// Adds the lines of one row, for each run of squares that no wall crosses.
 void add_row(const ValueGrid& grid, const std::vector<char>& cut, size_t j, double lux,
              std::vector<ContourLine>& out) {
@@ -150,8 +186,10 @@ std::vector<IsoluxLine> isolux_lines(const PlanLevel& level) {
   for (const double lux : isolux_levels) {
     std::vector<ContourLine> pieces;
     for (size_t j = 0; j + 1 < grid.rows; ++j) add_row(grid, cut, j, lux, pieces);
-    for (ContourLine& line : joined(std::move(pieces), grid.spacing))
+    for (ContourLine& line : joined(std::move(pieces), grid.spacing)) {
+      meet_walls(line, grid.spacing, level.walls);
       out.push_back({lux, std::move(line)});
+    }
   }
   return out;
 }

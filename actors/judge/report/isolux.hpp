@@ -1,6 +1,6 @@
 // Lines of equal illuminance on a floor, from the illuminance map of an assessment. Squares of the
-// map that a wall crosses are left out, since the light on both sides of a wall is unrelated. Pure
-// function; any thread.
+// map that a wall crosses are left out, since the light on both sides of a wall is unrelated; lines
+// go on straight from there to the wall. Pure function; any thread.
 #pragma once
 
 #include <array>

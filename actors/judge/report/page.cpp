@@ -6,6 +6,7 @@
 #include "actors/judge/report/page_style.hpp"
 #include "actors/judge/report/plan_svg.hpp"
 #include "actors/results/formats/html_page.hpp"
+#include "runtime/core/base64.hpp"
 
 namespace luxodus {
 
@@ -62,6 +63,19 @@ std::string title_of(const PageParts& parts) {
   for (const auto& title : {parts.a.project.name, parts.a.scene.title, parts.a.scene.name})
     if (!title.empty()) return title;
   return parts.texts("page.kind");
+}
+
+/// The storeys seen obliquely from above; "" without any.
+std::string drawing_of_storeys(const PageParts& parts) {
+  const std::string drawing =
+      overview_svg(parts.a, parts.schedule, parts.texts, {parts.paper_width_mm, cover_mm});
+  return drawing.empty() ? "" : "<figure class=\"cover\">" + drawing + "</figure>\n";
+}
+
+std::string cover_figure(const Texts& t, const ReportPicture& rendering) {
+  return "<figure class=\"cover\"><img alt=\"\" src=\"data:image/png;base64," +
+         base64(rendering.png) + "\"><figcaption>" + escaped(t("cover.rendering")) +
+         "</figcaption></figure>\n";
 }
 
 /// Scenario, operation, lit luminaires, smoke and rule sets in one line.
@@ -195,10 +209,9 @@ std::string report_page(const PageParts& parts, const PageOptions& options) {
                     escaped(title_of(parts)) + "</h1></div>";
   if (const std::string logo = parts.a.project.logo_png; !logo.empty())
     out += "<img alt=\"\" src=\"data:image/png;base64," + logo + "\">";
-  const std::string overview =
-      overview_svg(parts.a, parts.schedule, t, {parts.paper_width_mm, cover_mm});
   out += "</header>\n";
-  if (!overview.empty()) out += "<figure class=\"cover\">" + overview + "</figure>\n";
+  const ReportPicture* const rendering = cover_picture(parts);
+  out += rendering == nullptr ? drawing_of_storeys(parts) : cover_figure(t, *rendering);
   out += project_block(t, parts.a.project, parts.a.scene) + verdict_box(parts) + notice_box(t);
   std::string contents, body;
   SectionCounter counter;
@@ -219,7 +232,7 @@ std::string report_page(const PageParts& parts, const PageOptions& options) {
                                                            : heading + html;
   }
   out += "<nav>" + subheading(t("page.contents")) + "<ol class=\"contents\">\n" + contents +
-         "</ol></nav>\n" + body;
+         "</ol></nav>\n" + (rendering == nullptr ? "" : drawing_of_storeys(parts)) + body;
   return html_page({t.code(), title_of(parts) + " – " + t("page.kind"),
                     page_rule(t, parts.a.project, title_of(parts), options.letter) + report_style},
                    out);

@@ -33,6 +33,8 @@ std::string schedules_section(const PageParts& parts);
 std::string surfaces_section(const PageParts& parts);
 std::string places_section(const PageParts& parts);
 std::string sights_section(const PageParts& parts);
+/// The picture of the judged state by the camera "cover"; null where there is none.
+const ReportPicture* cover_picture(const PageParts& parts);
 /// Part of sights_section: the light at the eyes, and how views stand to experiments with people.
 std::string observers_note(const PageParts& parts);
 /// Part of sights_section; "" if no thresholds were sought.

@@ -180,7 +180,8 @@ CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
     while (!picture.name.ends_with(picture_kinds[kind].first)) ++kind;
     const size_t ending = std::string_view(picture_kinds[kind].first).size();
     const std::string name = picture.name.substr(0, picture.name.size() - ending);
-    out[png_text(picture.png, "View").value_or(name)][kind] = &picture;
+    const std::string camera = png_text(picture.png, "View").value_or(name);
+    if (camera != cover_camera) out[camera][kind] = &picture;
   }
   return out;
 }
@@ -292,6 +293,12 @@ std::string thumb_table(const PageParts& parts, const std::vector<Difference>& a
 }
 
 }  // namespace
+
+const ReportPicture* cover_picture(const PageParts& parts) {
+  for (const ReportPicture& picture : parts.pictures)
+    if (picture.name == cover_camera && !is_of_another_state(parts.a, picture)) return &picture;
+  return nullptr;
+}
 
 std::string sights_section(const PageParts& parts) {
   const Texts& t = parts.texts;

@@ -80,7 +80,9 @@ figure { margin: 0.7rem 0 1.1rem; break-inside: avoid; }
 figure svg, figure img { max-width: 100%; height: auto; display: block; }
 figure.plan > svg { width: 100%; border: 1px solid var(--line); }
 figure.cover { margin: 0.4rem 0; }
+figure.cover { display: block; border: 0; padding: 0; }
 figure.cover > svg { margin: 0 auto; }
+figure.cover > img { width: 100%; max-width: none; max-height: 80mm; object-fit: contain; }
 figure.chart > svg { border: 1px solid var(--line); margin: 0 auto; }
 section.product, section.surface { break-inside: avoid; }
 div.product { display: grid; grid-template-columns: auto 1fr; gap: 0 1.2rem; align-items: start; }

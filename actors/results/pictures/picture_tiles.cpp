@@ -224,6 +224,7 @@ Json json_of(const TiledView& view) {
           {"vertical_fov_deg", camera.vertical_fov_deg},
           {"width", camera.width},
           {"height", camera.height},
+          {"cut_m", camera.cut_m ? Json(*camera.cut_m) : Json()},
           {"number", view.number},
           {"first", view.first},
           {"ends", !view.ends.empty()},
@@ -238,6 +239,7 @@ TiledView view_of(const Json& object) {
   view.camera.vertical_fov_deg = object.at("vertical_fov_deg").get<double>();
   view.camera.width = object.at("width").get<int>();
   view.camera.height = object.at("height").get<int>();
+  if (const Json& cut = object.at("cut_m"); !cut.is_null()) view.camera.cut_m = cut.get<double>();
   view.number = object.at("number").get<uint64_t>();
   view.first = object.at("first").get<bool>();
   if (const Json& moment = object.at("flames_at_s"); !moment.is_null())
@@ -252,8 +254,8 @@ bool is_picture(const TiledView& view) {
          camera.height <= limits::max_picture_edge &&
          ViewPasses::bytes_of(camera) <= limits::max_view_bytes && camera.vertical_fov_deg > 0 &&
          camera.vertical_fov_deg < 180 && camera.eye != camera.target &&
-         camera.up != glm::dvec3(0) && view.number >> 16 == 0 &&
-         std::isfinite(view.flames_at_s.value_or(0));
+         camera.up != glm::dvec3(0) && camera.cut_m.value_or(-1e9) < camera.eye.z &&
+         view.number >> 16 == 0 && std::isfinite(view.flames_at_s.value_or(0));
 }
 
 /// Ends are multiples of four, up to 2^16: two bytes each, the lower one first.

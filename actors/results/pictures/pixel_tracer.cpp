@@ -13,6 +13,8 @@ namespace {
 /// A path's number: camera, pixel (28 bits), path.
 constexpr int camera_shift = 48;
 constexpr int pixel_shift = 17;
+/// So far above an eye there is nothing.
+constexpr double far_m = 1e6;
 
 }  // namespace
 
@@ -26,6 +28,7 @@ Pinhole::Pinhole(const Camera& camera, const glm::dvec3& local_origin)
     right = glm::cross(forward_, other);
   }
   right = glm::normalize(right);
+  if (camera.cut_m) cut_ = *camera.cut_m - local_origin.z;
   const double half = std::tan(glm::radians(camera.vertical_fov_deg) / 2);
   up_ = glm::cross(right, forward_) * half;
   right_ = right * (half * camera.width / camera.height);
@@ -33,7 +36,11 @@ Pinhole::Pinhole(const Camera& camera, const glm::dvec3& local_origin)
 
 Ray Pinhole::ray(double x, double y) const {
   const glm::dvec3 d = forward_ + right_ * (2 * x / width_ - 1) + up_ * (1 - 2 * y / height_);
-  return {glm::vec3(eye_), glm::vec3(glm::normalize(d))};
+  const glm::dvec3 direction = glm::normalize(d);
+  if (!cut_) return {glm::vec3(eye_), glm::vec3(direction)};
+  if (!(direction.z < 0)) return {glm::vec3(eye_ + glm::dvec3(0, 0, far_m)), {0, 0, 1}};
+  const double to_cut = (*cut_ - eye_.z) / direction.z;
+  return {glm::vec3(eye_ + direction * to_cut), glm::vec3(direction)};
 }
 
 std::optional<glm::dvec2> Pinhole::pixel_of(const glm::dvec3& place) const {

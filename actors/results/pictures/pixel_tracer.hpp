@@ -24,7 +24,8 @@ class Pinhole {
  public:
   Pinhole(const Camera& camera, const glm::dvec3& local_origin);
 
-  /// The ray through a position in pixels from the picture's upper left corner.
+  /// The ray through a position in pixels from the picture's upper left corner. Where the camera
+  /// cuts, it begins at the cut; one that does not meet the cut meets nothing.
   Ray ray(double x, double y) const;
   /// The position in pixels of a place [m, local]; nothing if it is behind the camera or outside
   /// the picture.
@@ -32,7 +33,8 @@ class Pinhole {
 
  private:
   glm::dvec3 eye_, forward_, right_, up_;
-  double width_, height_;  // of the picture [px]
+  double width_, height_;      // of the picture [px]
+  std::optional<double> cut_;  // local height
 };
 
 class PixelTracer {

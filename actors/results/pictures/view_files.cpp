@@ -319,12 +319,31 @@ PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const S
   return human_png(run, camera, view, balanced, tone);
 }
 
+/// Shares of a picture from above a cut: as much is brighter than the middle grey, and than white.
+/// Around the building is nothing, so that a mean over the picture says little.
+constexpr double brighter_than_grey = 0.2, brighter_than_white = 0.01;
+constexpr double least_grey_cd_m2 = 1e-6, least_white_over_grey = 6;
+
+Exposure exposure_from_above(const XyzPicture& picture) {
+  std::vector<float> luminances;
+  for (size_t i = 0; i < picture.pixels(); ++i) luminances.push_back(picture.xyz[3 * i + 1]);
+  const auto exceeded_by = [&](double share) {
+    const auto count = static_cast<double>(luminances.size());
+    const auto at = luminances.begin() + static_cast<std::ptrdiff_t>((1 - share) * (count - 1));
+    std::nth_element(luminances.begin(), at, luminances.end());
+    return std::max(least_grey_cd_m2, static_cast<double>(*at));
+  };
+  const double grey = exceeded_by(brighter_than_grey);
+  return {grey, std::max(least_white_over_grey * grey, exceeded_by(brighter_than_white)), 0};
+}
+
 }  // namespace
 
 Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view) {
   if (view.exposure) return *view.exposure;
-  return exposure_of(white_balance_of(run, view).balanced(view.shown()),
-                     brightest_sign_or_flame(run, camera, view));
+  const XyzPicture balanced = white_balance_of(run, view).balanced(view.shown());
+  return camera.cut_m ? exposure_from_above(balanced)
+                      : exposure_of(balanced, brightest_sign_or_flame(run, camera, view));
 }
 
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {

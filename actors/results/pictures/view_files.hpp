@@ -61,7 +61,8 @@ double brightest_sign_or_flame(const LocalRun& run, const Camera& camera, const 
 PngImage plain_png(const XyzPicture& balanced, const Exposure& exposure, ToneStyle tone,
                    const WhiteBalance& white, std::vector<ImageText> texts);
 
-/// The exposure of the plain PNG file.
+/// The exposure of the plain PNG file: for the brightest sign or flame in view, or for what is
+/// bright below a cut.
 Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view);
 
 /// The pixels of PNG files, as seen by a camera or by an eye.

@@ -22,7 +22,7 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr uint32_t pack_version = 11;
+inline constexpr uint32_t pack_version = 12;
 /// Size of a skeleton: 100 times that of a tower of six million triangles.
 inline constexpr uint64_t max_skeleton_bytes = uint64_t{1} << 30;
 }  // namespace limits

@@ -142,7 +142,7 @@ void serialize(A& a, ProjectSettings& x) {
 }
 template <class A>
 void serialize(A& a, Camera& x) {
-  a(x.name, x.place, x.eye, x.target, x.up, x.vertical_fov_deg, x.width, x.height);
+  a(x.name, x.place, x.eye, x.target, x.up, x.vertical_fov_deg, x.width, x.height, x.cut_m);
 }
 template <class A>
 void serialize(A& a, Scenario::Factor& x) {

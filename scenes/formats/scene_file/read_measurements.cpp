@@ -176,8 +176,10 @@ void read_camera(const toml::Table& table, SceneReading& reading) {
   c.vertical_fov_deg = keys.number("vertical_fov_deg");
   c.width = static_cast<int>(keys.integer("width"));
   c.height = static_cast<int>(keys.integer("height"));
+  if (keys.has("cut")) c.cut_m = keys.number("cut");
   if (keys.clean()) {
     const glm::dvec3 way = c.target - c.eye;
+    if (c.cut_m && *c.cut_m >= c.eye.z) keys.problem("cut", "'cut' must be below the camera's eye");
     if (glm::length(way) < 1e-6) {
       keys.problem("target", "'target' must not be where the camera stands");
     } else if (glm::length(glm::cross(glm::normalize(way), c.up)) < 1e-6) {

@@ -89,6 +89,8 @@ std::vector<TableSpec> measurement_schema() {
            {"vertical_fov_deg", "number", "deg", "60", "[0.1, 170]", "angle from bottom to top"},
            {"width", "integer", "px", "640", "[1, 16384]", "pixels across"},
            {"height", "integer", "px", "360", "[1, 16384]", "pixels down"},
+           {"cut", "number", "m", "", "[-1e7, 1e7]",
+            "height, below `eye`, above which nothing is shown: a building without its ceilings"},
        }},
   };
 }

@@ -1,6 +1,7 @@
 #include "scenes/light/transport/emitter_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/light/transport/glow_guide.hpp"
 
@@ -24,20 +25,33 @@ EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
     if (e.distribution != Distribution::collimated) sum += seen_power_.back();
     by_power_.push_back(sum);
   }
+  if (scene.emitters.size() <= limits::nearby_emitters) set_side_by_side();
 }
 
-/// Weights each emitter that is not collimated in proportion to power times weight(emitter).
-/// Returns the sum.
-template <class WeightOf>
-double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight) const {
+void EmitterChoice::set_side_by_side() {
+  for (const CompiledEmitter& e : scene_.emitters) {
+    const Vec3 centre = centre_of(e);
+    few_.x.push_back(centre.x);
+    few_.y.push_back(centre.y);
+    few_.z.push_back(centre.z);
+    few_.half_size.push_back(0.5_r * glm::length(e.size));
+    few_.quarter_square.push_back(0.25_r * glm::dot(e.size, e.size));
+  }
+  for (int band = 0; band <= scene_.bands.count(); ++band) {
+    std::vector<double>& power = few_.power.emplace_back();
+    for (size_t i = 0; i < scene_.emitters.size(); ++i)
+      power.push_back(power_of(i, band < scene_.bands.count() ? band : all_bands));
+  }
+}
+
+bool EmitterChoice::weigh_powers(Cumulative& cumulative, int band) const {
   cumulative.resize(scene_.emitters.size());
   double total = 0;
   for (size_t i = 0; i < cumulative.size(); ++i) {
-    const double power = power_of(i, band);
-    if (power > 0) total += power * weight(scene_.emitters[i]);
+    total += power_of(i, band);
     cumulative[i] = total;
   }
-  return total;
+  return total > 0;
 }
 
 /// Weights the cell's bright emitters at the place: by their distances to it, and only those in
@@ -71,29 +85,62 @@ bool EmitterChoice::weigh_at(const Vec3& place, const Vec3& normal, int band,
                              const CellSight* seen) {
   seen_ = seen;
   if (seen != nullptr) return weigh_bright(place, normal, band);
-  const bool few = scene_.emitters.size() <= limits::nearby_emitters;
+  return has_few() ? weigh_few_at(place, band) : weigh_powers(at_, band);
+}
+
+bool EmitterChoice::weigh_few_at(const Vec3& place, int band) {
+  const size_t count = few_.x.size();
   const Real least = 1e-9_r * scene_.diagonal_m * scene_.diagonal_m;
-  const double total = weigh(at_, band, [&](const CompiledEmitter& e) {
-    if (!few) return 1.0;
-    const Vec3 d = centre_of(e) - place;
-    return 1 / static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(e.size, e.size) + least);
-  });
+  const Real *x = few_.x.data(), *y = few_.y.data(), *z = few_.z.data(),
+             *size = few_.quarter_square.data();
+  const double* power = few_.power_in(band);
+  at_.resize(count);
+  double* const weight = at_.data();
+  for (size_t i = 0; i < count; ++i) {
+    const Real dx = x[i] - place.x, dy = y[i] - place.y, dz = z[i] - place.z;
+    const Real square = dx * dx + dy * dy + dz * dz + size[i] + least;
+    weight[i] = power[i] * (1 / static_cast<double>(square));
+  }
+  double total = 0;
+  for (size_t i = 0; i < count; ++i) weight[i] = total += weight[i];
   return total > 0;
 }
 
 bool EmitterChoice::weigh_along(const Ray& ray, Real end, int band) {
   near_alone_ = false;
-  const bool few = scene_.emitters.size() <= limits::nearby_emitters;
-  bool near = !few;
-  const double total = weigh(along_, band, [&](const CompiledEmitter& e) {
-    if (!few) return 1.0;
-    const Vec3 from_origin = centre_of(e) - ray.origin;
-    const Real t = glm::clamp(glm::dot(from_origin, ray.direction), 0.0_r, end);
-    const Real distance = glm::length(from_origin - ray.direction * t);
-    const Real half = 0.5_r * glm::length(e.size);
-    near |= distance < limits::near_line * end + half;
-    return seen_along(distance, half, end);
-  });
+  return has_few() ? weigh_few_along(ray, end, band) : weigh_powers(along_, band);
+}
+
+bool EmitterChoice::weigh_few_along(const Ray& ray, Real end, int band) {
+  const size_t count = few_.x.size();
+  const Vec3 o = ray.origin, d = ray.direction;
+  const Real reach = limits::near_line * end;
+  weight_.resize(count);
+  is_near_.resize(count);
+  const Real *x = few_.x.data(), *y = few_.y.data(), *z = few_.z.data(),
+             *half = few_.half_size.data();
+  Real* const weight = weight_.data();
+  int32_t* const is_near = is_near_.data();
+#pragma GCC ivdep
+  for (size_t i = 0; i < count; ++i) {
+    const Real fx = x[i] - o.x, fy = y[i] - o.y, fz = z[i] - o.z;
+    Real t = fx * d.x + fy * d.y + fz * d.z;
+    t = t < 0 ? 0 : t;
+    t = end < t ? end : t;
+    const Real px = fx - d.x * t, py = fy - d.y * t, pz = fz - d.z * t;
+    const Real distance = std::sqrt(px * px + py * py + pz * pz);
+    is_near[i] = distance < reach + half[i];
+    const Real least = distance + half[i] + 1e-4_r * end;
+    weight[i] = end / (least * (least + end / 3));
+  }
+  const double* power = few_.power_in(band);
+  along_.resize(count);
+  bool near = false;
+  double total = 0;
+  for (size_t i = 0; i < count; ++i) {
+    near |= is_near[i] != 0 && power[i] > 0;
+    along_[i] = total += power[i] * static_cast<double>(weight[i]);
+  }
   return near && total > 0;
 }
 

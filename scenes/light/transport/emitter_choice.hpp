@@ -69,9 +69,23 @@ class EmitterChoice {
     return band == all_bands ? seen_power_[emitter]
                              : e.wanted * e.power_w[static_cast<size_t>(band)];
   }
+  /// What weights of few emitters follow from, number by number, so that the compiler computes
+  /// several at once.
+  struct SideBySide {
+    std::vector<Real> x, y, z, half_size, quarter_square;  // of centres and sizes
+    /// By band, and then of all bands together: 0 for collimated emitters.
+    std::vector<std::vector<double>> power;
+    const double* power_in(int band) const {
+      return (band == all_bands ? power.back() : power[static_cast<size_t>(band)]).data();
+    }
+  };
+  void set_side_by_side();
+  bool has_few() const { return !few_.x.empty(); }
   bool weigh_bright(const Vec3& place, const Vec3& normal, int band);
-  template <class WeightOf>
-  double weigh(Cumulative& cumulative, int band, WeightOf&& weight) const;
+  bool weigh_few_at(const Vec3& place, int band);
+  bool weigh_few_along(const Ray& ray, Real end, int band);
+  /// Weights each emitter by its power alone: false if none has any.
+  bool weigh_powers(Cumulative& cumulative, int band) const;
   /// Approximate angle that a line passing at this distance subtends at an emitter, over that
   /// distance.
   static double seen_along(Real distance, Real half, Real end) {
@@ -83,11 +97,14 @@ class EmitterChoice {
 
   const CompiledScene& scene_;
   std::vector<double> seen_power_;  // in all bands, by luminance and colour
+  SideBySide few_;                  // empty where there are more than limits::nearby_emitters
   Cumulative by_power_;             // of all emitters
   SphereSet bounds_;
   const CellSight* seen_ = nullptr;  // of the last weigh_at
   double bright_ = 0;                // probability of choosing among its bright emitters
   Cumulative at_, along_;            // at_: of the bright emitters, or of all
+  std::vector<Real> weight_;         // scratch of weigh_few_along
+  std::vector<int32_t> is_near_;     // likewise
   bool near_alone_ = false;          // along_ refers to these:
   std::vector<uint32_t> near_;
 };

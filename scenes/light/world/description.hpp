@@ -303,6 +303,9 @@ struct Camera {
   double vertical_fov_deg = 60;
   int width = 640;
   int height = 360;
+  /// Height above which the picture shows nothing, below the eye: a building seen from above
+  /// without its ceilings. The light is that of the whole building. None: nothing is cut.
+  std::optional<double> cut_m = {};
 };
 
 // ---- assessment --------------------------------------------------------------------------------

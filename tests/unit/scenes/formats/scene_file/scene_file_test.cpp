@@ -475,6 +475,7 @@ name = "cam"
 eye = [0, 0, 1.6]
 target = [0, 5, 1.6]
 vertical_fov_deg = 45
+cut = -0.5
 width = 320
 height = 200
 [[scenario]]
@@ -501,6 +502,7 @@ doors_open = ["leaf"]
   CHECK(s.counting_planes.at(0).edge_v.z == 2);
   CHECK(same(s.observers.at(0).gaze, {0, 1, 0}));
   CHECK(s.cameras.at(0).vertical_fov_deg == 45);
+  CHECK(s.cameras.at(0).cut_m == -0.5);
   CHECK(s.cameras.at(0).width == 320);
   CHECK(s.cameras.at(0).height == 200);
   const Scenario& fails = s.scenarios.at(0);

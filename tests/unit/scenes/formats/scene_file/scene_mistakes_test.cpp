@@ -363,6 +363,8 @@ TEST_CASE("measurements and scenarios may only name existing things", "[format][
       {"[[observer]]\nname = \"o\"\neye = [0, 0, 0]\n", 1, "'gaze', 'target' is needed"},
       {"[[camera]]\nname = \"c\"\neye = [0, 0, 0]\ntarget = [0, 0, 1]\n", 1, "'up' must not be"},
       {"[[camera]]\nname = \"c\"\neye = [0, 0, 0]\ntarget = [0, 0, 0]\n", 4, "must not be where"},
+      {"[[camera]]\nname = \"c\"\neye = [0, 0, 2]\ntarget = [1, 0, 0]\ncut = 2\n", 5,
+       "below the camera's eye"},
       {scenario + "operation = \"night\"\n", 3, "must be one of \"mains\""},
       {scenario + "circuits = { c1 = 0.5 }\n", 3, "there is no circuit 'c1'"},
       {point + "flux_lm = 1\ncircuit = \"c1\"\n" + scenario + "circuits = { cl = 0.5 }\n", 9,
