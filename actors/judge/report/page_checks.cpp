@@ -177,7 +177,7 @@ struct CheckTable {
   }
   std::string html() const {
     return table(parts.texts, columns(),
-                 furniture ? std::vector{10, 20, 9, 9, 10, 7, 12, 23}
+                 furniture ? std::vector{10, 18, 12, 12, 9, 7, 12, 20}
                            : std::vector{12, 22, 11, 10, 8, 14, 23},
                  rows, "checks");
   }
