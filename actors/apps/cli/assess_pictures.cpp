@@ -20,7 +20,7 @@ namespace {
 constexpr size_t max_pictures = 4;
 constexpr int picture_width = 320;
 constexpr int64_t particles = 250'000;
-constexpr int paths_per_pixel = 8;
+constexpr int paths_per_pixel = 4;
 /// Eyes of a walker, and how far before him he looks [m].
 constexpr double eye_height_m = 1.65, look_ahead_m = 8;
 
@@ -34,7 +34,7 @@ Camera smaller(Camera camera) {
 /// The cover of a report: the storey of the first route or area, seen from above without what lies
 /// above the cut. Its size [pixels], the angle that it sees, from where, and how high above the
 /// floor it is cut: above doors, below ceilings.
-constexpr int cover_width = 640, cover_height = 256;
+constexpr int cover_width = 600, cover_height = 240;
 constexpr double cover_fov_deg = 25;
 const glm::dvec3 from_south = glm::normalize(glm::dvec3(0.12, 1, -1.7)),
                  from_west = glm::normalize(glm::dvec3(1, -0.12, -1.7));
