@@ -66,6 +66,7 @@ div.product table.facts { font-size: 0.74rem; margin: 0; }
 div.product table.facts th, div.product table.facts td { padding: 0.12rem 0.3rem; }
 
 tr.group th { background: var(--pale); padding-top: 0.45rem; break-after: avoid; }
+tr.lead { break-after: avoid; }
 tr.lead td { border-bottom: 0; }
 tr.places td { font-size: 0.74rem; color: var(--soft); break-inside: auto; }
 tr.places b { color: var(--ink); font-weight: normal; }
