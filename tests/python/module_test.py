@@ -10,7 +10,9 @@ import subprocess
 import sys
 import tempfile
 import threading
+import types
 import unittest
+import unittest.mock
 
 try:
     import numpy as np
@@ -70,6 +72,23 @@ name = "clear"
 operation = "mains"
 smoke_factor = 0
 """
+
+class Axes:
+    """Axes of matplotlib that note what is drawn."""
+
+    def __init__(self, drawn):
+        self.drawn = drawn
+        self.figure = types.SimpleNamespace(colorbar=lambda drawn, ax, label: None)
+
+    def pcolormesh(self, *values, **style):
+        self.drawn["pcolormesh"] = (values, style)
+
+    def imshow(self, *values, **style):
+        self.drawn["imshow"] = (values, style)
+
+    def set(self, **said):
+        self.drawn.update(said)
+
 
 ROUTE = """
 [[route]]
@@ -140,8 +159,8 @@ class Scenes(Module):
         variant = self.scene_file(
             'include = ["room.toml"]\n[[change]]\nkind = "luminaire"\nof = "lamp"\nfactor = 2\n'
             '[[change]]\nkind = "medium"\nof = "haze"\nfactor = 0.0\n', "variant.toml")
-        changed = luxodus.load(path, changes=changes).run(particles=20e3, threads=1)
-        written = luxodus.load(variant).run(particles=20e3, threads=1)
+        changed = luxodus.load(path, changes=changes).run("haze", particles=20e3, threads=1)
+        written = luxodus.load(variant).run("haze", particles=20e3, threads=1)
         np.testing.assert_array_equal(changed.planes["desks"].illuminance_lx,
                                       written.planes["desks"].illuminance_lx)
         plain = luxodus.load(path).run("clear", particles=20e3, threads=1)
@@ -176,8 +195,8 @@ class Scenes(Module):
         pack = self.folder / "room.luxpack"
         subprocess.run([PROGRAM, "pack", str(path), "--out", str(pack)], check=True,
                        capture_output=True)
-        packed = luxodus.load(pack).run(particles=20e3).planes["desks"]
-        written = luxodus.load(path).run(particles=20e3).planes["desks"]
+        packed = luxodus.load(pack).run("haze", particles=20e3).planes["desks"]
+        written = luxodus.load(path).run("haze", particles=20e3).planes["desks"]
         np.testing.assert_array_equal(packed.illuminance_lx, written.illuminance_lx)
         for asked in ({"changes": [{"kind": "medium", "of": "haze", "factor": 2}]}, {"at_s": 3}):
             with self.assertRaises(luxodus.Error) as caught:
@@ -197,7 +216,7 @@ class Runs(Module):
         subprocess.run([PROGRAM, "run", str(path), "--particles", "50k", "--no-views",
                         "--out", str(out)], check=True, capture_output=True)
         program = json.loads((out / "result.json").read_text())
-        run = luxodus.load(path).run(particles=50e3, threads=2)
+        run = luxodus.load(path).run("haze", particles=50e3, threads=2)
         self.assertEqual(run.result.keys(), program.keys())
         for key in ("planes", "probes", "surfaces", "ledger", "particles", "state", "scene_hash",
                     "stopped_by", "stop_rule", "media", "scene_file"):
@@ -212,7 +231,7 @@ class Runs(Module):
         np.testing.assert_array_equal(desks.grid_m[..., 1].ravel(), table["y"])
 
     def test_arrays_have_the_shape_of_their_cells(self):
-        run = luxodus.load(self.scene_file()).run(particles=20e3)
+        run = luxodus.load(self.scene_file()).run("haze", particles=20e3)
         desks = run.planes["desks"]
         self.assertEqual(desks.illuminance_lx.shape, (6, 10))
         self.assertEqual(desks.grid_m.shape, (6, 10, 3))
@@ -233,7 +252,7 @@ class Runs(Module):
         self.assertIsNone(luxodus.load(self.scene_file()).run("clear", particles=1e4).voxels)
 
     def test_the_energy_balance_closes_in_integers(self):
-        balance = luxodus.load(self.scene_file()).run(particles=20e3).energy_balance
+        balance = luxodus.load(self.scene_file()).run("haze", particles=20e3).energy_balance
         self.assertTrue(balance["closes"])
         self.assertEqual(balance["emitted"] + balance["roulette_gain"],
                          balance["absorbed_surfaces"] + balance["absorbed_media"] +
@@ -241,15 +260,15 @@ class Runs(Module):
 
     def test_nodes_give_the_same_bits_as_threads(self):
         scene = luxodus.load(self.scene_file())
-        threads = scene.run(particles=50e3, threads=2).planes["desks"].illuminance_lx
-        nodes = scene.run(particles=50e3, nodes=2).planes["desks"].illuminance_lx
+        threads = scene.run("haze", particles=50e3, threads=2).planes["desks"].illuminance_lx
+        nodes = scene.run("haze", particles=50e3, nodes=2).planes["desks"].illuminance_lx
         np.testing.assert_array_equal(threads, nodes)
 
     def test_particles_are_allocated_adaptively(self):
         lamp = ROOM[ROOM.index("[[emitter]]"):ROOM.index("[[plane]]")]
         second = lamp.replace('"lamp"', '"second"').replace("[3, 2, 2.5]", "[5.9, 3.9, 2.9]")
         text = ROOM.replace("seed = 3", 'seed = 3\ngroups = "emitter"').replace(lamp, lamp + second)
-        run = luxodus.load(self.scene_file(text)).run(particles=50e3, adaptive=True,
+        run = luxodus.load(self.scene_file(text)).run("haze", particles=50e3, adaptive=True,
                                                       error_of=["plane desks"])
         shares = [group["batch_share"] for group in run.source_groups]
         self.assertEqual(len(shares), 2)
@@ -258,10 +277,10 @@ class Runs(Module):
 
     def test_a_continued_run_equals_a_longer_one_bit_for_bit(self):
         scene = luxodus.load(self.scene_file())
-        run = scene.run(particles=20e3)
+        run = scene.run("haze", particles=20e3)
         first = run.planes["desks"].illuminance_lx.copy()
         run.go_on(particles=60e3)
-        whole = scene.run(particles=60e3)
+        whole = scene.run("haze", particles=60e3)
         self.assertEqual(run.particles, whole.particles)
         np.testing.assert_array_equal(run.planes["desks"].illuminance_lx,
                                       whole.planes["desks"].illuminance_lx)
@@ -274,10 +293,10 @@ class Runs(Module):
                       {"cells": 0}, {"nodes": 1000}, {"scenario": "fire"},
                       {"error_of": ["plane none"]}, {"particles": 1e3, "adaptive": True}):
             with self.assertRaises(luxodus.Error, msg=str(wrong)):
-                scene.run(**wrong)
+                scene.run(**{"scenario": "haze", **wrong})
 
     def test_a_picture_is_an_array_of_luminance(self):
-        run = luxodus.load(self.scene_file()).run(particles=50e3)
+        run = luxodus.load(self.scene_file()).run("haze", particles=50e3)
         view = run.render("door", paths=8)
         self.assertEqual(view.luminance_cd_m2.shape, (24, 32))
         self.assertEqual(view.xyz_cd_m2.shape, (24, 32, 3))
@@ -286,15 +305,90 @@ class Runs(Module):
         with self.assertRaises(luxodus.Error):
             run.render("window")
 
+    def test_one_of_several_scenarios_must_be_named(self):
+        with self.assertRaises(luxodus.Error) as caught:
+            luxodus.load(self.scene_file()).run(particles=1e3)
+        self.assertIn('name one of its scenarios: "haze", "clear"', str(caught.exception))
+
+    def test_an_unknown_plane_is_answered_by_the_names_of_planes(self):
+        planes = luxodus.load(self.scene_file()).run("haze", particles=1e3).planes
+        with self.assertRaises(KeyError) as caught:
+            planes["floor"]
+        self.assertEqual(caught.exception.args[0],
+                         "there is no plane 'floor'; there are: 'desks'")
+        self.assertNotIn("floor", planes)
+
+    def test_results_are_shown_in_short_and_as_a_table(self):
+        run = luxodus.load(self.scene_file()).run("haze", particles=1e3)
+        desks = run.planes["desks"]
+        mean = desks.mean_illuminance["value"]
+        self.assertEqual(repr(desks),
+                         f"<luxodus.Plane 'desks': 10 x 6 cells, {mean:.4g} lx on average>")
+        self.assertIn("incident_front_lx", repr(run.patches))
+        table = desks._repr_html_()
+        self.assertIn("<th>illuminance_lx</th><td>[6, 10], ", table)
+        self.assertEqual(repr(run.render("door", paths=4)),
+                         "<luxodus.View 'door': 32 x 24 pixels, 4 paths each>")
+
+    def test_planes_and_views_are_plotted_where_matplotlib_is(self):
+        run = luxodus.load(self.scene_file()).run("haze", particles=1e4)
+        drawn = {}
+        matplotlib = types.ModuleType("matplotlib")
+        matplotlib.colors = types.SimpleNamespace(LogNorm=lambda: "log")
+        axes = Axes(drawn)
+        matplotlib.pyplot = types.SimpleNamespace(subplots=lambda: (None, axes))
+        fakes = {"matplotlib": matplotlib, "matplotlib.colors": matplotlib.colors,
+                 "matplotlib.pyplot": matplotlib.pyplot}
+        with unittest.mock.patch.dict(sys.modules, fakes):
+            desks = run.planes["desks"]
+            self.assertIs(desks.plot(), axes)
+            x, y, shown = drawn["pcolormesh"][0]
+            np.testing.assert_array_equal(shown, desks.illuminance_lx)
+            np.testing.assert_allclose((x[0, 0], x[-1, -1], y[0, 0], y[-1, -1]),
+                                       (0.5, 5.5, 0.5, 3.5))
+            self.assertEqual(drawn["title"], "desks")
+            view = run.render("door", paths=4)
+            view.plot(cmap="gray")
+            np.testing.assert_array_equal(drawn["imshow"][0][0], view.filtered_luminance_cd_m2)
+            self.assertEqual(drawn["imshow"][1], {"cmap": "gray", "norm": "log"})
+        with unittest.mock.patch.dict(sys.modules, {"matplotlib": None}):
+            with self.assertRaises(ImportError) as caught:
+                desks.plot()
+            self.assertIn("python3-matplotlib", str(caught.exception))
+
+    def test_lines_and_upright_planes_are_plotted_with_their_size(self):
+        more = """
+[[plane]]
+name = "line"
+corner = [1, 2, 0.8]
+edge_u = [2, 0, 0]
+edge_v = [0, 0.25, 0]
+cell_m = 0.5
+[[plane]]
+name = "wall"
+corner = [0.1, 0.5, 0.5]
+edge_u = [0, 3, 0]
+edge_v = [0, 0, 2]
+cell_m = 0.5
+"""
+        planes = luxodus.load(self.scene_file(ROOM + more)).run("haze", particles=1e3).planes
+        sizes = {}
+        for name in ("line", "wall"):
+            x, y, across, _ = planes[name]._corners()
+            sizes[name] = (np.ptp(x), np.ptp(y), across)
+        np.testing.assert_allclose(sizes["line"][:2], (2, 0.25))
+        np.testing.assert_allclose(sizes["wall"][:2], (3, 2))
+        self.assertEqual(sizes["line"][2], "x [m]")
+        self.assertEqual(sizes["wall"][2], "along the first edge [m]")
+
     def test_results_outlive_their_scene_and_run(self):
-        desks = luxodus.load(self.scene_file()).run(particles=20e3).planes["desks"]
+        desks = luxodus.load(self.scene_file()).run("haze", particles=20e3).planes["desks"]
         gc.collect()
         self.assertGreater(float(desks.illuminance_lx.min()), 0)
 
     def test_an_unknown_attribute_is_an_attribute_error(self):
-        run = luxodus.load(self.scene_file()).run(particles=1e4)
+        run = luxodus.load(self.scene_file()).run("haze", particles=1e4)
         self.assertFalse(hasattr(run, "illumination"))
-        self.assertFalse(hasattr(run, "_repr_html_"))
         self.assertIn("worst_relative_error", dir(run))
 
 
@@ -302,6 +396,7 @@ class Progress(Module):
     def test_progress_is_reported_on_the_calling_thread(self):
         told = []
         luxodus.load(self.scene_file()).run(
+            "haze",
             particles=50e3, progress=lambda p: told.append((threading.get_ident(), p.particles)))
         self.assertTrue(told)
         self.assertEqual({ident for ident, _ in told}, {threading.get_ident()})
@@ -320,13 +415,14 @@ class Progress(Module):
         seen = []
         other.start()
         luxodus.load(self.scene_file()).run(
+            "haze",
             time_s=0.3, progress=lambda p: seen.append(len(counted)))
         done.set()
         other.join()
         self.assertGreater(seen[-1], seen[0] if len(seen) > 1 else 0)
 
     def test_a_callable_that_returns_false_stops_a_run_and_keeps_its_results(self):
-        run = luxodus.load(self.scene_file()).run(particles=1e15, progress=lambda p: False)
+        run = luxodus.load(self.scene_file()).run("haze", particles=1e15, progress=lambda p: False)
         self.assertEqual(run.stopped_by, "interrupted")
         self.assertGreater(run.particles, 0)
         self.assertTrue(run.energy_balance["closes"])
@@ -338,21 +434,21 @@ class Progress(Module):
         before = threading.active_count()
         scene = luxodus.load(self.scene_file())
         with self.assertRaisesRegex(KeyError, "enough"):
-            scene.run(particles=1e15, progress=refuse)
+            scene.run("haze", particles=1e15, progress=refuse)
         with self.assertRaisesRegex(KeyError, "enough"):
-            scene.run(particles=1e15, nodes=2, progress=refuse)
+            scene.run("haze", particles=1e15, nodes=2, progress=refuse)
         self.assertEqual(threading.active_count(), before)
-        self.assertGreater(scene.run(particles=1e4).particles, 0)
+        self.assertGreater(scene.run("haze", particles=1e4).particles, 0)
 
     def test_ctrl_c_stops_a_run(self):
         def interrupt(progress):
             os.kill(os.getpid(), signal.SIGINT)
 
         with self.assertRaises(KeyboardInterrupt):
-            luxodus.load(self.scene_file()).run(particles=1e15, progress=interrupt)
+            luxodus.load(self.scene_file()).run("haze", particles=1e15, progress=interrupt)
 
     def test_another_thread_cannot_read_a_run_while_it_traces(self):
-        run = luxodus.load(self.scene_file()).run(particles=1e4)
+        run = luxodus.load(self.scene_file()).run("haze", particles=1e4)
         refused = []
 
         def read():

@@ -80,7 +80,7 @@ if [[ " ${targets[*]} " == *" luxodus_python "* ]]; then
     /usr/bin/python3 - "$usr/share/luxodus/scenes/library/office_floor.toml" <<'PYTHON' ||
 import sys
 import luxodus
-run = luxodus.load(sys.argv[1]).run(particles=1e5)
+run = luxodus.load(sys.argv[1]).run("clear_mains", particles=1e5)
 assert run.planes["corridor floor"].illuminance_lx.mean() > 0
 PYTHON
     fail "the Python module of the package traces nothing"

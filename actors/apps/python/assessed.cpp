@@ -10,6 +10,7 @@
 #include "actors/apps/python/errors.hpp"
 #include "actors/apps/python/fallback.hpp"
 #include "actors/apps/python/numbers.hpp"
+#include "actors/apps/python/shown.hpp"
 #include "actors/apps/python/values.hpp"
 #include "actors/cast/process/in_process.hpp"
 #include "actors/judge/assess/over_time.hpp"
@@ -62,7 +63,7 @@ MadeAssessment assess_scene(const OpenScene& scene, AssessOptions options, int n
         py::dict said;
         said["what"] = what;
         said["share"] = share;
-        return with_attributes(said);
+        return shown_as("Values", said);
       });
     };
     const SceneAtTime reader = scene.reader();

@@ -15,6 +15,7 @@
 #include "actors/apps/python/assessed.hpp"
 #include "actors/apps/python/errors.hpp"
 #include "actors/apps/python/scene.hpp"
+#include "actors/apps/python/shown.hpp"
 #include "actors/apps/python/traced.hpp"
 #include "runtime/core/isolated_job.hpp"
 
@@ -80,6 +81,7 @@ PYBIND11_MODULE(luxodus, module) {
   module.attr("__version__") = LUX_VERSION;
   module.def("_serve_job", serve_job);
   add_error(module);
+  add_shown(module);
   add_run(module);
   add_assessment(module);
   add_scene(module);

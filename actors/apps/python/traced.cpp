@@ -10,6 +10,7 @@
 #include "actors/apps/python/errors.hpp"
 #include "actors/apps/python/fallback.hpp"
 #include "actors/apps/python/numbers.hpp"
+#include "actors/apps/python/shown.hpp"
 #include "actors/apps/python/values.hpp"
 #include "actors/cast/process/in_process.hpp"
 #include "actors/results/files/maps.hpp"
@@ -54,8 +55,17 @@ WaitingThread::Said said_of(const Progress& p) {
     said["particles_per_second"] = p.particles_per_second;
     said["relative_error"] = p.relative_error;
     said["seconds_left"] = p.seconds_left;
-    return with_attributes(said);
+    return shown_as("Values", said);
   };
+}
+
+/// Refuses to guess which scenario is meant.
+void check_named(const SceneDescription& scene, const std::string& scenario) {
+  if (!scenario.empty() || scene.scenarios.size() < 2) return;
+  std::string names;
+  for (const Scenario& one : scene.scenarios)
+    names += (names.empty() ? "\"" : ", \"") + one.name + "\"";
+  throw Refused(problem_in(scene.file, "name one of its scenarios: " + names));
 }
 
 std::unique_ptr<TracedRun> run_of(const OpenScene& scene, const RunWish& wish,
@@ -68,6 +78,7 @@ std::unique_ptr<TracedRun> run_of(const OpenScene& scene, const RunWish& wish,
   work_apart(progress, [&](WaitingThread& waiting) {
     const auto& description = scene.description();
     const uint64_t seed = wish.seed.value_or(description->run.seed);
+    check_named(*description, wish.scenario);
     const Scenario scenario = taken(find_scenario(*description, wish.scenario));
     const auto first_round = [&](const Progress& p) { waiting.say(said_of(p)); };
     const CompileOptions options{wish.cells, wish.error_of};
@@ -106,7 +117,7 @@ py::object plane_of(const PlaneMap& map, const PlaneMeasure& plane, const py::di
   out["illuminance_at_grid_points_lx"] = array_of(at_points, shape);
   out["luminaires_direct_in_clear_air_at_grid_points_lx"] =
       array_of(map.light.point_clear_lx, shape);
-  return with_attributes(out);
+  return shown_as("Plane", out);
 }
 
 py::array_t<float> luminance_of(const XyzPicture& picture) {
@@ -127,7 +138,7 @@ py::object view_of(const Camera& camera, const ShownView& view) {
     out["filtered_luminance_cd_m2"] = luminance_of(view.filtered->light);
     out["filtered_standard_error_cd_m2"] = array_of(view.filtered->standard_error_y, shape);
   }
-  return with_attributes(out);
+  return shown_as("View", out);
 }
 
 }  // namespace
@@ -185,11 +196,12 @@ void TracedRun::compute() {
   });
   const auto& description = *run_->scene().description;
   result_ = to_python(json);
-  planes_ = py::dict();
+  py::dict planes;
   const py::list values = result_["planes"];
   for (size_t i = 0; i < maps.planes.size(); ++i)
-    planes_[py::str(description.planes[i].name)] =
+    planes[py::str(description.planes[i].name)] =
         plane_of(maps.planes[i], description.planes[i], py::dict(values[i]));
+  planes_ = names_of("plane", planes);
   computed_ = true;
 }
 
@@ -214,7 +226,7 @@ py::object TracedRun::patches() {
   out["points_m"] = places_of(surface.points, {static_cast<py::ssize_t>(surface.points.size())});
   out["triangles"] = array_of(corners, {triangles, 3});
   add_arrays(out, surface.cell_data, {triangles});
-  return with_attributes(out);
+  return shown_as("Values", out);
 }
 
 py::object TracedRun::voxels() {
@@ -226,7 +238,7 @@ py::object TracedRun::voxels() {
   out["origin_m"] = array_of(std::vector{volume.origin.x, volume.origin.y, volume.origin.z}, {3});
   out["edge_m"] = volume.spacing.x;
   add_arrays(out, volume.cell_data, {volume.cells[2], volume.cells[1], volume.cells[0]});
-  return with_attributes(out);
+  return shown_as("Values", out);
 }
 
 py::dict TracedRun::energy_balance() {
@@ -341,7 +353,7 @@ void add_tracing(py::class_<OpenScene>& scene) {
       py::arg("error_of") = std::vector<std::string>(), py::arg("seed") = py::none(),
       py::arg("threads") = default_threads(), py::arg("cells") = 1, py::arg("adaptive") = false,
       py::arg("nodes") = 0, py::arg("progress") = py::none(),
-      "Traces a scenario, the first unless one is named, and returns a Run.\n\n"
+      "Traces a scenario, which must be named where the scene has several, and returns a Run.\n\n"
       "particles, error, time_s: when it stops, the first that holds: number of particles, "
       "relative standard error, seconds. 4 million particles unless one is said.\n"
       "error_of: what the error is of, as --error-of of `luxodus run`.\n"

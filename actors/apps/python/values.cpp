@@ -46,10 +46,6 @@ py::array_t<double> places_of(const std::vector<glm::dvec3>& places,
   return array_of(values, shape);
 }
 
-py::object with_attributes(const py::dict& named) {
-  return py::module_::import("types").attr("SimpleNamespace")(**named);
-}
-
 void add_arrays(py::dict& to, const std::vector<VtkArray>& arrays,
                 const std::vector<py::ssize_t>& shape) {
   for (const VtkArray& array : arrays) {

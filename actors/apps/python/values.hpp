@@ -30,9 +30,6 @@ pybind11::array_t<T> array_of(const std::vector<T>& values,
 pybind11::array_t<double> places_of(const std::vector<glm::dvec3>& places,
                                     std::vector<pybind11::ssize_t> shape);
 
-/// Named values as attributes: types.SimpleNamespace.
-pybind11::object with_attributes(const pybind11::dict& named);
-
 /// Adds each array of a file for ParaView as an attribute. `shape`: of its cells; an array of
 /// several components has a further axis.
 void add_arrays(pybind11::dict& to, const std::vector<VtkArray>& arrays,
