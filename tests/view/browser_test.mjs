@@ -172,7 +172,7 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
 
 test('the moments of a flame have the mean of the flame on each ray', async () => {
   /** Luminances at places of the flame: of the mean, and of moments. */
-  const [mean, moments] = await page.evaluate(async () => {
+  const [mean, moments, sees] = await page.evaluate(async () => {
     const { page: p } = window.luxodus;
     const { surfaces, air } = p.live.shown;
     const { flames } = p.picture.smoke;
@@ -195,6 +195,8 @@ test('the moments of a flame have the mean of the flame on each ray', async () =
     shapeSeed.value[0] = 0;
     const ofMean = seen();
     shapeSeed.value[0] = seed;
+    await window.luxodus.settled();
+    const { seesFlames } = p.picture;
     const ofMoments = [];
     for (let k = 0; k < 150; ++k) {
       flameTime.value = 0.37 * k;
@@ -203,10 +205,19 @@ test('the moments of a flame have the mean of the flame on each ray', async () =
     flameTime.value = 0;
     for (const sum of [surfaces, air]) sum.stained(true);
     p.live.settle();
-    p.walk.solid = true;
     p.light.changed();
-    return [ofMean, ofMoments];
+    p.walk.jump({ eye: [x - 2, y, z], gaze: [-1, 0, 0] });
+    await window.luxodus.settled();
+    const seesThemBehind = p.picture.seesFlames;
+    // Behind the partition, towards the fire.
+    p.walk.jump({ eye: [3, 0.5, 1.2], gaze: [x - 3, y - 0.5, z - 1.2] });
+    await window.luxodus.settled();
+    const seesThemThroughWalls = p.picture.seesFlames;
+    p.walk.solid = true;
+    return [ofMean, ofMoments, { seesFlames, seesThemBehind, seesThemThroughWalls }];
   });
+  assert.deepEqual(sees,
+    { seesFlames: true, seesThemBehind: false, seesThemThroughWalls: false });
   for (const [i, luminance] of mean.entries()) {
     const factors = moments.map((seen) => seen[i] / luminance);
     const average = factors.reduce((sum, f) => sum + f) / factors.length;

@@ -73,8 +73,9 @@ export class Picture {
     this.size = [1, 1];
     this.shares = { moving: 1, still: 1 };
     this.learns = true;
-    /** Whether flames are to move. */
+    /** Whether flames are to move, and whether the last picture that was metered shows any. */
     this.liveFlames = true;
+    this.seesFlames = false;
     this.added = 0;
     this.makeTargets();
     this.makePasses();
@@ -216,8 +217,7 @@ export class Picture {
    * draw finely.
    */
   flamesMove() {
-    return this.liveFlames && this.camera !== undefined && this.smoke.present &&
-      this.shares.moving > slowMachine && this.smoke.flames.movesBefore(this.camera);
+    return this.liveFlames && this.seesFlames && this.shares.moving > slowMachine;
   }
 
   /** Lets flames go on by this many seconds. */
@@ -346,7 +346,7 @@ export class Picture {
   async meter() {
     if (this.metering) return;
     this.metering = true;
-    this.meterFlames();
+    const mayBurn = this.drawFlames();
     this.meterPass.uniforms.picture.value = this.finished.texture;
     this.pass(this.meterPass, this.targets.meter);
     const cells = new Float32Array(4 * meterCells * meterCells);
@@ -354,22 +354,36 @@ export class Picture {
       await this.renderer.readRenderTargetPixelsAsync(
         this.targets.meter, 0, 0, meterCells, meterCells, cells);
       this.exposure.meter(cells);
+      this.seesFlames = mayBurn && await this.showsFlames();
     } finally {
       this.metering = false;
     }
   }
 
-  /** The means of steady flames in view: exposure does not flicker with them. */
-  meterFlames() {
+  /**
+   * Draws the means of steady flames in view, with which exposure does not flicker. Returns whether
+   * there may be any: walls may hide them.
+   */
+  drawFlames() {
     const { smoke, targets } = this;
-    if (!smoke.present || !smoke.flames.movesBefore(this.camera)) {
+    const mayBurn = smoke.present && smoke.flames.movesBefore(this.camera);
+    if (mayBurn) {
+      smoke.material.uniforms.flamesAlone.value = true;
+      this.pass(smoke.material, targets.flames);
+      smoke.material.uniforms.flamesAlone.value = false;
+    } else {
       this.renderer.setRenderTarget(targets.flames);
       this.renderer.clear();
-      return;
     }
-    smoke.material.uniforms.flamesAlone.value = true;
-    this.pass(smoke.material, targets.flames);
-    smoke.material.uniforms.flamesAlone.value = false;
+    return mayBurn;
+  }
+
+  /** Whether what drawFlames has drawn has light. */
+  async showsFlames() {
+    const halves = new Uint16Array(4 * meterSamples * meterSamples);
+    await this.renderer.readRenderTargetPixelsAsync(
+      this.targets.flames, 0, 0, meterSamples, meterSamples, halves);
+    return halves.some((half, i) => i % 4 < 3 && half > 0);
   }
 
   fadeOn(elapsed) {
