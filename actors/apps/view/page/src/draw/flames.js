@@ -1,5 +1,5 @@
-// Flames as one 3D texture of their glow, stacked with dark layers in between. Steady ones are shown
-// at a moment.
+// Flames as one 3D texture of their glow, stacked with dark layers in between. Steady ones are
+// shown at a moment.
 import * as THREE from 'three';
 import { normals } from './flame_shape.js';
 

@@ -13,7 +13,7 @@ const sides = 32;
 /** The floor under a person is looked for this far above and below the feet. */
 const floorWithin_m = 0.3;
 
-/** Positions about the foot, of a body 1 m high and a head about the eyes; `head` tells them apart. */
+/** About the foot: a body 1 m high, and a head about the eyes; `head` tells them apart. */
 function silhouette() {
   const body = new THREE.CylinderGeometry(bodyRadius_m, bodyRadius_m, 1, sides)
     .rotateX(Math.PI / 2).translate(0, 0, 0.5);

@@ -77,7 +77,7 @@ export class Clock {
     const many = this.presence ? this.placed(time) : null;
     this.words.textContent = [
       many === null ? null : `${many} ${many === 1 ? 'person' : 'people'}`,
-      this.light === null ? 'light and smoke stay' : `light and smoke of ${secondsWords(this.light)}`,
+      `light and smoke ${this.light === null ? 'stay' : `of ${secondsWords(this.light)}`}`,
     ].filter(Boolean).join(' · ');
   }
 
@@ -99,7 +99,7 @@ export class Clock {
   }
 
   toggle() {
-    if (this.time === null) return;
+    if (this.time === null || this.controls.disabled) return;
     this.playing = !this.playing;
     if (this.playing && this.time >= this.span.to) this.go(this.span.from);
     this.showPlaying();

@@ -28,7 +28,8 @@ function feetOf(text, path) {
 export function decodePeople(value) {
   if (typeof value !== 'object' || value === null) fail('people', 'no object');
   const step = number(value.step, 'step', 1e-3, limits.seconds);
-  if (!Array.isArray(value.people) || value.people.length > limits.people) fail('people', 'no list');
+  if (!Array.isArray(value.people) || value.people.length > limits.people)
+    fail('people', 'no list');
   let places = 0;
   const people = value.people.map((one, i) => {
     const path = `people[${i}]`;
