@@ -177,6 +177,9 @@ TEST_CASE("a live view serves the people who walk, unless they stand as bodies",
     CHECK(run.err.find(why) != std::string::npos);
   };
   refused(scene + " --trajectories " + scene, "room.toml");
+  const std::string pack = (folder / "tank.luxpack").string();
+  REQUIRE(run_luxodus(folder, "pack " + smoke_tank() + " --out " + pack).code == 0);
+  refused(pack, "a pack cannot be changed live");
   const std::string bodies = folder
                                  .write("bodies.toml",
                                         "include = [\"room.toml\"]\npeople_as_bodies = true\n"

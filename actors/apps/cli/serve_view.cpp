@@ -60,6 +60,7 @@ SceneAtTime times_of_view(const std::string& file, const SceneDescription& scene
 
 Result<std::string> people_of_view(const SceneDescription& scene, const std::string& file,
                                    const std::string& trajectories) {
+  if (scene.packed) return people_json({});  // serve_view refuses it, in its own words
   if (!scene.people_are_bodies) {
     const auto people = people_shown(scene, file, trajectories);
     return people ? people_json(people->people) : people.problem();
