@@ -30,6 +30,7 @@ constexpr double min_gaze = 1e-3;
 Camera camera_at(const EscapeRoute& route, double along_m, const FilmedWalk& walk,
                  const Camera& lens) {
   Camera camera = lens;
+  camera.cut_m.reset();
   camera.up = {0, 0, 1};
   const glm::dvec3 foot = place_along(route, along_m);
   glm::dvec3 ahead = place_along(route, along_m + look_ahead_m) - foot;
@@ -117,6 +118,9 @@ Result<std::vector<Camera>> cameras_through(const std::vector<Keyframe>& keys, d
                         fmt::format("the camera \"{}\" comes at {:g} s, not after the one before "
                                     "it at {:g} s: say keyframes in the order of their times",
                                     key.camera.name, key.time_s, times.back()));
+    if (key.camera.cut_m)
+      return problem_in(key.camera.place, "the camera \"" + key.camera.name +
+                                              "\" cuts the building: films show it whole");
     times.push_back(key.time_s);
     eyes.push_back(key.camera.eye);
     gazes.push_back(glm::normalize(key.camera.target - key.camera.eye));
@@ -136,6 +140,7 @@ Result<std::vector<Camera>> cameras_through(const std::vector<Keyframe>& keys, d
     while (i + 2 < times.size() && time >= times[i + 1]) ++i;
     const double at = (time - times[i]) / (times[i + 1] - times[i]);
     Camera camera = lens;
+    camera.cut_m.reset();
     camera.eye = between(times, eyes, i, at);
     const glm::dvec3 gaze = between(times, gazes, i, at);
     if (glm::length(gaze) < min_gaze)

@@ -254,7 +254,8 @@ bool is_picture(const TiledView& view) {
          camera.height <= limits::max_picture_edge &&
          ViewPasses::bytes_of(camera) <= limits::max_view_bytes && camera.vertical_fov_deg > 0 &&
          camera.vertical_fov_deg < 180 && camera.eye != camera.target &&
-         camera.up != glm::dvec3(0) && camera.cut_m.value_or(-1e9) < camera.eye.z &&
+         camera.up != glm::dvec3(0) &&
+         (!camera.cut_m || (std::isfinite(*camera.cut_m) && *camera.cut_m < camera.eye.z)) &&
          view.number >> 16 == 0 && std::isfinite(view.flames_at_s.value_or(0));
 }
 

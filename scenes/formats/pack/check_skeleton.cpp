@@ -271,7 +271,8 @@ void check_eyes(const SceneDescription& d) {
     const glm::dvec3 way = c.target - c.eye;
     need(glm::length(way) >= 1e-6 && glm::length(glm::cross(glm::normalize(way), c.up)) >= 1e-6,
          "a camera looks nowhere");
-    need(!c.cut_m || *c.cut_m < c.eye.z, "a camera is cut above its eye");
+    need(!c.cut_m || (std::isfinite(*c.cut_m) && *c.cut_m < c.eye.z),
+         "a camera is cut above its eye");
     need(c.vertical_fov_deg > 0 && c.vertical_fov_deg < 180, "a camera sees no angle");
     need(c.width >= 1 && c.height >= 1 && int64_t{c.width} * c.height <= max_pixels,
          "a camera has no pixels");

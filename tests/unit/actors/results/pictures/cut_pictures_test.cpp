@@ -1,6 +1,7 @@
 // Pictures of a building from above, without what lies above a cut.
 #include <catch2/catch.hpp>
 
+#include "actors/results/pictures/film.hpp"
 #include "actors/results/pictures/picture_tiles.hpp"
 #include "actors/results/pictures/pixel_tracer.hpp"
 #include "actors/results/pictures/view_files.hpp"
@@ -84,4 +85,22 @@ TEST_CASE("rays begin at the cut, and those that do not meet it meet nothing", "
   const Ray whole = Pinhole(camera, origin).ray(camera.width / 2.0, camera.height - 1.0);
   CHECK(whole.origin.z == Approx(9.5));
   CHECK(whole.direction == down.direction);
+}
+
+TEST_CASE("films pass no camera that cuts, and take no cut from their lens", "[display][film]") {
+  Camera whole;
+  whole.name = "whole";
+  whole.eye = {0, 0, 10};
+  Camera cut = whole;
+  cut.name = "storey";
+  cut.eye = {1, 0, 10};
+  cut.cut_m = 2;
+  const auto refused = cameras_through({{0, whole}, {1, cut}}, 2, whole);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("\"storey\" cuts the building") != std::string::npos);
+  Camera last = whole;
+  last.eye = {1, 0, 10};
+  const auto film = cameras_through({{0, whole}, {1, last}}, 2, cut);
+  REQUIRE(film.ok());
+  for (const Camera& camera : film.value()) CHECK_FALSE(camera.cut_m);
 }
