@@ -10,6 +10,7 @@
 #include "actors/results/pictures/pictures.hpp"
 #include "actors/results/run/local_run.hpp"
 #include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/compile_surfaces.hpp"
 
 namespace luxodus::cli {
 
@@ -114,9 +115,7 @@ Result<void> picture_state(const AssessmentJob& job, const std::filesystem::path
   const auto scenario = judged_scenario(*job.scene, job.options.scenario);
   if (!scenario) return scenario.problem();
   auto scene = std::make_shared<SceneDescription>(*job.scene);
-  const auto whole = compile_scene(job.scene, scenario.value(), {});
-  if (!whole) return whole.problem();
-  scene->cameras = cameras_of(*job.scene, whole.value()->bounds);
+  scene->cameras = cameras_of(*job.scene, solid_bounds(*job.scene, scenario.value()));
   if (scene->cameras.empty()) return {};
   const auto compiled = compile_scene(scene, scenario.value(), {});
   if (!compiled) return compiled.problem();
