@@ -130,8 +130,7 @@ bool EmitterChoice::weigh_few_along(const Ray& ray, Real end, int band) {
     const Real px = fx - d.x * t, py = fy - d.y * t, pz = fz - d.z * t;
     const Real distance = std::sqrt(px * px + py * py + pz * pz);
     is_near[i] = distance < reach + half[i];
-    const Real least = distance + half[i] + 1e-4_r * end;
-    weight[i] = end / (least * (least + end / 3));
+    weight[i] = seen_along(distance, half[i], end);
   }
   const double* power = few_.power_in(band);
   along_.resize(count);

@@ -88,9 +88,9 @@ class EmitterChoice {
   bool weigh_powers(Cumulative& cumulative, int band) const;
   /// Approximate angle that a line passing at this distance subtends at an emitter, over that
   /// distance.
-  static double seen_along(Real distance, Real half, Real end) {
+  static Real seen_along(Real distance, Real half, Real end) {
     const Real least = distance + half + 1e-4_r * end;
-    return static_cast<double>(end / (least * (least + end / 3)));
+    return end / (least * (least + end / 3));
   }
   static EmitterSample choose(const Cumulative& cumulative, double u);
   static double share_of(size_t emitter, const Cumulative& cumulative);
@@ -120,7 +120,8 @@ bool EmitterChoice::weigh_near(const Ray& ray, Real end, int band, SeenAt&& seen
     if (!(power > 0)) return;
     const double arriving = seen_at(ray.origin + ray.direction * t).arriving_of(i);
     if (!(arriving > 0)) return;
-    total += power * arriving * seen_along(std::sqrt(square), bounds_.radius(i), end);
+    total += power * arriving *
+             static_cast<double>(seen_along(std::sqrt(square), bounds_.radius(i), end));
     near_.push_back(i);
     along_.push_back(total);
   });
