@@ -80,6 +80,12 @@ Result<void> join_links(ZmqTransport& transport, const NodeSetup& node) {
 
 std::string NodeTransport::meeting_trouble(const Network& network) const {
   std::string text;
+  // What neighbours said comes first: a connection may also break while a neighbour that has
+  // refused this node ends.
+  for (const NodeId neighbour : network.neighbours()) {
+    const std::string refusal = network.refusal_of(neighbour);
+    if (!refusal.empty()) text += "; " + refusal;
+  }
   if (machine_.context.turned_away() > 0)
     text += fmt::format("; {} connections were turned away, since their keys are not listed here",
                         machine_.context.turned_away());
@@ -92,10 +98,6 @@ std::string NodeTransport::meeting_trouble(const Network& network) const {
   if (sockets_.counters().not_a_node > 0)
     text +=
         "; what listens at a neighbour's port does not answer as a node: another program has it";
-  for (const NodeId neighbour : network.neighbours()) {
-    const std::string refusal = network.refusal_of(neighbour);
-    if (!refusal.empty()) text += "; " + refusal;
-  }
   return text;
 }
 
