@@ -107,10 +107,32 @@ Inside polar_inverse(const Row& row, double c0, double slope, double share) {
   return {x, std::sin(row.start + x), std::cos(row.start + x)};
 }
 
-/// Index of the interval of ascending `angles` that holds `angle`.
+/// Index of the interval of ascending `angles` that holds `angle`. Steps of most tables are equal:
+/// then the first guess is right or one off, and no search with its mispredicted branches follows.
 size_t interval_of(const std::vector<double>& angles, double angle) {
+  const size_t last = angles.size() - 2;
+  const double share = angle / angles.back();
+  const double guess = share * static_cast<double>(last + 1);
+  size_t at = guess > 0 ? std::min(static_cast<size_t>(guess), last) : 0;
+  for (int steps = 0; steps < 2; ++steps) {
+    if (at > 0 && angle < angles[at])
+      --at;
+    else if (at < last && angle >= angles[at + 1])
+      ++at;
+    else
+      return at;
+  }
   const auto after = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
   return static_cast<size_t>(after - angles.begin()) - 1;
+}
+
+/// Whether all columns of a table are the same: the body is round about its axis.
+bool columns_agree(const std::vector<double>& candela, size_t columns, size_t rows) {
+  for (size_t a = 1; a < columns; ++a)
+    if (!std::equal(candela.begin(), candela.begin() + static_cast<std::ptrdiff_t>(rows),
+                    candela.begin() + static_cast<std::ptrdiff_t>(a * rows)))
+      return false;
+  return true;
 }
 
 /// First entry of an ascending run of cumulative shares beyond `u`, and how far into its step `u`
@@ -201,6 +223,7 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
   web.candela_ = std::move(candela);
   web.to_luminaire_ = to_luminaire;
   web.peak_cd_ = peak;
+  web.round_ = columns_agree(web.candela_, columns, rows);
   web.column_cdf_.resize(columns - 1);
   web.row_cdf_.resize((columns - 1) * (rows - 1));
   for (size_t p = 0; p + 1 < rows; ++p) {
@@ -240,13 +263,14 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
 double PhotometricWeb::intensity(const glm::dvec3& direction) const {
   const glm::dvec3 d = direction * to_luminaire_;  // the transpose is the inverse
   const double polar = std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z) / radian;
+  const size_t p = interval_of(polar_deg_, polar);
+  const double t = (polar - polar_deg_[p]) / (polar_deg_[p + 1] - polar_deg_[p]);
+  const size_t rows = polar_deg_.size();
+  if (round_) return bilinear(&candela_[p], &candela_[p], 0, std::min(t, 1.0));
   double azimuth = std::atan2(d.y, d.x) / radian;
   if (azimuth < 0) azimuth += 360;
   const size_t a = interval_of(azimuth_deg_, azimuth);
-  const size_t p = interval_of(polar_deg_, polar);
   const double s = (azimuth - azimuth_deg_[a]) / (azimuth_deg_[a + 1] - azimuth_deg_[a]);
-  const double t = (polar - polar_deg_[p]) / (polar_deg_[p + 1] - polar_deg_[p]);
-  const size_t rows = polar_deg_.size();
   return bilinear(&candela_[a * rows + p], &candela_[(a + 1) * rows + p], std::min(s, 1.0),
                   std::min(t, 1.0));
 }

@@ -56,6 +56,7 @@ class PhotometricWeb {
   glm::dmat3 to_luminaire_{1.0};
   double flux_lm_ = 0;
   double peak_cd_ = 0;
+  bool round_ = false;  // all columns are the same
   // One row between neighbouring polar angles [rad]: its start with sine and cosine, its width w,
   // the integrals of sin(start + x) and of x sin(start + x) over x in [0, w], and the sine of its
   // end. Stored, because sampling needs them for every particle.
