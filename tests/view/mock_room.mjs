@@ -211,7 +211,7 @@ function framed(kind, generation, group, halves) {
 export function lightFrame(generation, group, state) {
   const mesh = meshOf(state);
   const triangles = mesh.kinds.length;
-  const halves = new Uint16Array(6 * triangles + 3);
+  const halves = new Uint16Array(8 * triangles + 3);
   const white = [0, 0, 0];
   let reached = 0;
   for (let t = 0; t < triangles; ++t) {
@@ -219,13 +219,14 @@ export function lightFrame(generation, group, state) {
     [1, -1].forEach((side, s) => {
       const n = normal.map((x) => side * x);
       const e = lit(state.sources[group], state, plus(centre, n, 0.01), n);
-      e.forEach((x, c) => (halves[6 * t + 3 * s + c] = toHalf((x * albedo[c]) / Math.PI)));
+      e.forEach((x, c) => (halves[8 * t + 4 * s + c] = toHalf((x * albedo[c]) / Math.PI)));
+      halves[8 * t + 4 * s + 3] = toHalf(weigh(e));
       if (!e.some((x) => x > 0)) return;
       reached += 1;
       e.forEach((x, c) => (white[c] += x / Math.PI));
     });
   }
-  white.forEach((x, c) => (halves[6 * triangles + c] = toHalf(reached ? x / reached : 0)));
+  white.forEach((x, c) => (halves[8 * triangles + c] = toHalf(reached ? x / reached : 0)));
   return framed(2, generation, group, halves);
 }
 
@@ -317,6 +318,52 @@ export const observers = [
   { name: 'west, by the table', eye: [0.8, 2.2, 1.65], gaze: [5.7, 0.7, 0.35] },
   { name: 'east, at the door', eye: [7.2, 3.2, 1.65], gaze: [3.8, 1.0, 0.25] },
 ];
+/** What may be added: a type that is not placed, a lamp of the room, and its sign. */
+export const library = () => ({
+  step: 5,
+  luminaires: [
+    { of: 'wide downlight', of_type: true, product: 'WD 250', maker: 'Nobody', file: 'wide.ldt',
+      mains: 0, emergency: 250, unit: 'lm', curves: [0, 1].map((plane) =>
+        Array.from({ length: 73 }, (_, i) =>
+          Math.max(0, Math.cos(((5 * i - 180) * Math.PI) / 180)) ** (1 + plane) * 400)) },
+    { of: 'lamp west', of_type: false, product: '', maker: '', file: '', mains: 3100,
+      emergency: 0, unit: 'lm', curves: null },
+  ],
+  signs: [{ of: 'exit sign', of_type: false, file: 'exit_right.svg', text: '', width: face.width,
+    height: face.height, colours: [[236, 236, 231], [0, 132, 61]],
+    face: { columns: 64, rows: 32, texels: texels(64, 32) } }],
+});
+
+export const routes = [
+  { name: 'way out', width: 1.2, path: [[9, 3, 0], [6.5, 2.9, 0], [1, 2.9, 0]] },
+];
+export const areas = [
+  { name: 'east room', z: 0, outline: [[6.7, 0.1], [10.9, 0.1], [10.9, 5.9], [6.7, 5.9]] },
+];
+export const emphasis = [{ name: 'first aid', position: [1, 5, 1.2] }];
+
+/** Checks of the route's darkest place, by the ceiling's lamps alone. */
+export function checks(state) {
+  const floor = [3.6, 2.9, 0.02];
+  let lux = 0;
+  for (const source of state.sources)
+    if (source.kind === 'luminaire')
+      lux += state.factors[source.name] * weigh(lit(source, state, floor, [0, 0, 1]));
+  const limit = 0.3;
+  const pass = lux >= limit;
+  const rows = [
+    { rule: 'E1', title: 'Illuminance on the centre line', clause: 'EN 1838:2013 4.2.1',
+      subject: 'route "way out"', conditions: 'without furniture', value: lux, limit,
+      at_least: true, unit: 'lx', margin: lux / limit - 1, place: floor,
+      verdict: pass ? 'pass' : 'fail', reasons: '' },
+    { rule: 'N8', title: 'Duration', clause: '', subject: 'the building', conditions: '',
+      value: null, limit: 1, at_least: true, unit: 'h', margin: null, place: null,
+      verdict: 'not assessed', reasons: 'no luminaire states duration_h' }];
+  const counts = { [pass ? 'pass' : 'fail']: 1, 'not assessed': 1 };
+  return { rows, counts, seconds: 0.1,
+    words: `${pass ? 'no check made fails' : '1 check fails'}, 1 not assessed` };
+}
+
 export const cameras = [
   { name: 'overview', eye: [0.4, 0.4, 2.5], target: [6, 4, 1], up: [0, 0, 1], fov_deg: 75 },
 ];

@@ -61,6 +61,7 @@ export class MockServer {
     this.backdrops = [];
     this.people = { step: 1, people: [] };
     this.states = null;
+    Object.assign(this, { steps: [], done: 0, before: [structuredClone(this.state)] });
   }
 
   async listen(port = 0) {
@@ -69,7 +70,8 @@ export class MockServer {
     const page = readFileSync(pageFile);
     this.http = createServer(({ url }, answer) => {
       const { pathname } = new URL(url, 'http://mock');
-      const fixed = { '/backdrops.json': this.backdrops, '/people.json': this.people }[pathname];
+      const fixed = { '/backdrops.json': this.backdrops, '/people.json': this.people,
+        '/library.json': room.library() }[pathname];
       if (fixed) {
         answer.writeHead(200, { 'content-type': 'application/json' });
         answer.end(JSON.stringify(fixed));
@@ -114,6 +116,7 @@ export class MockServer {
       low: room.low,
       high: room.high, relaid: this.relaid, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
+      routes: room.routes, areas: room.areas, emphasis: room.emphasis, north_deg: 30,
       cameras: room.cameras, voxels: room.voxels, flames: room.flames,
       lamps: room.lampsOf(state), lamp_tables: room.lampTables, gloss: this.gloss,
       editor: viewer !== null && viewer === this.editor,
@@ -132,6 +135,7 @@ export class MockServer {
     viewer.send(room.geometryFrame(this.generation, this.state));
     this.frames ??= this.trace();
     for (const frame of this.frames) viewer.send(frame);
+    this.tell(viewer, this.history());
   }
 
   tell(viewer, message) {
@@ -152,10 +156,40 @@ export class MockServer {
 
   hear(viewer, message) {
     this.heard.push(message);
-    const edits = ['factor', 'scenario', 'smoke', 'state', 'time', 'move', 'add', 'remove', 'save'];
+    const edits = ['factor', 'scenario', 'smoke', 'state', 'time', 'move', 'add', 'remove', 'save',
+      'history'];
     if (edits.includes(message.type) && viewer !== this.editor)
       this.tell(viewer, { type: 'refused', why: 'somebody else is editing' });
-    else this[`do_${message.type}`]?.(viewer, message);
+    else {
+      this[`do_${message.type}`]?.(viewer, message);
+      this.note(message);
+    }
+  }
+
+  /** Records an edit as a step. */
+  note({ type, name, group, of, factor }) {
+    const kinds = { factor: group, scenario: name, smoke: '', move: name, add: `${of} copy`,
+      remove: name };
+    if (!(type in kinds)) return;
+    this.steps.splice(this.done);
+    this.before.splice(this.done + 1);
+    this.steps.push({ kind: type, name: kinds[type], count: 1, value: factor ?? null });
+    this.before.push(structuredClone(this.state));
+    this.done = this.steps.length;
+    this.tellAll(this.history());
+  }
+
+  history() {
+    return { type: 'history', steps: this.steps, done: this.done };
+  }
+
+  do_history(_, { done }) {
+    const before = this.state;
+    this.done = done;
+    this.state = structuredClone(this.before[done]);
+    this.tellAll(this.history());
+    this.tellAll({ type: 'factors', factors: this.state.factors });
+    this.begin(() => 'new', room.trianglesOf(before) !== room.trianglesOf(this.state));
   }
 
   /**
@@ -232,12 +266,14 @@ export class MockServer {
     this.begin((group) => (group === thing.group ? 'new' : others));
   }
 
-  do_add(viewer, { kind, of, position, facing }) {
+  /** A type of the library is as bright here as the first luminaire. */
+  do_add(viewer, { kind, of, of_type: ofType, position, facing }) {
     const { state } = this;
     const things = kind === 'sign' ? state.signs : state.luminaires;
-    const original = things.find((t) => t.name === of);
+    const original = ofType ? things[0] : things.find((t) => t.name === of);
     const count = things.filter((t) => t.added).length + 1;
-    const name = `${of.replace(/ copy.*/, '')} copy${count > 1 ? ` ${count}` : ''}`;
+    const name = ofType ? of
+      : `${of.replace(/ copy.*/, '')} copy${count > 1 ? ` ${count}` : ''}`;
     things.push({ ...original, name, position, facing: facing ?? original.facing, group: name,
       added: true });
     const source = state.sources.find((s) => s.name === original.group);
@@ -292,6 +328,10 @@ export class MockServer {
     this.tell(viewer, { type: 'editor', editor: viewer === this.editor });
   }
 
+  do_checks(viewer) {
+    this.tell(viewer, { type: 'checks', ...room.checks(this.state) });
+  }
+
   do_probe(viewer, message) {
     this.tell(viewer, { type: 'probe', id: message.id, ...room.probe(this.state, message) });
   }
@@ -301,10 +341,11 @@ export class MockServer {
     const rows = room.observers.map(({ name, eye }) => {
       const distance = Math.hypot(...eye.map((x, i) => x - position[i]));
       const legible = distance * this.state.smoke < 7;
-      return { from: name, distance, verdict: legible ? 'legible' : 'visible but not legible',
+      return { from: name, along: 0, eye_height: eye[2], distance, verdict: legible ? 'legible' : 'visible but not legible',
         reason: `the detail is at visibility level ${legible ? 11 : 4}, 7 is needed` };
     });
-    this.tell(viewer, { type: 'sign', name: sign, rows });
+    for (const provisional of [true, false])
+      this.tell(viewer, { type: 'sign', name: sign, rows, provisional });
   }
 }
 

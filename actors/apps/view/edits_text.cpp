@@ -21,7 +21,10 @@ Json moves_json(const Moves& moves) {
 Json copies_json(const std::vector<SceneEdits::Copy>& copies) {
   Json out = Json::array();
   for (const SceneEdits::Copy& copy : copies)
-    out.push_back({{"is_sign", copy.is_sign}, {"of", copy.of}, {"name", copy.name}});
+    out.push_back({{"is_sign", copy.is_sign},
+                   {"of", copy.of},
+                   {"name", copy.name},
+                   {"of_type", copy.of_type}});
   return out;
 }
 
@@ -62,7 +65,7 @@ Result<SceneEdits> parse_edits(std::string_view text) {
     out.luminaires = read_moves(object.at("luminaires"));
     for (const Json& one : object.at("added"))
       out.added.push_back({one.at("is_sign").get<bool>(), one.at("of").get<std::string>(),
-                           one.at("name").get<std::string>()});
+                           one.at("name").get<std::string>(), one.at("of_type").get<bool>()});
     if (const Json& at = object.at("at_s"); !at.is_null()) out.at_s = at.get<double>();
     return out;
   } catch (const Json::exception& e) {

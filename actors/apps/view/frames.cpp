@@ -22,12 +22,12 @@ namespace {
 
 enum class FrameKind : uint32_t { geometry = 1, light = 2, smoke = 3, smoke_light = 4 };
 
-/// Front and back, r g b each, as half floats.
-constexpr size_t triangle_light_bytes = 2 * 3 * sizeof(uint16_t);
+/// Front and back, r g b and illuminance each, as half floats.
+constexpr size_t triangle_light_bytes = 2 * 4 * sizeof(uint16_t);
 /// A white surface in the light, behind that of triangles: three halves.
 constexpr size_t white_light_bytes = 3 * sizeof(uint16_t);
 constexpr double pi = std::numbers::pi;
-/// The largest half float: brighter patches are shown as bright as this [cd/m2].
+/// The largest half float: brighter patches are shown as bright as this [cd/m2, lx].
 constexpr float max_half = 65504;
 
 /// Writes values in wire order, little endian like every supported machine.
@@ -149,7 +149,7 @@ Colour light_on_surfaces(const Readout& readout, const CompiledScene& scene,
   return linear_srgb_from_xyz(lumens);
 }
 
-/// Luminance of both sides of each triangle; then the light on them.
+/// Luminance and illuminance of both sides of each triangle; then the light on all of them.
 LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
                         const std::vector<LivePatch>& patches, uint32_t generation, int group) {
   Writer out(FrameKind::light, generation, static_cast<uint32_t>(group));
@@ -158,7 +158,10 @@ LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
     for (const uint32_t bin : {patch.front, patch.back}) colours.learn(bin);
   for (const LivePatch& patch : patches) {
     const double per_watt = 1 / (pi * patch.area_m2);
-    for (const uint32_t bin : {patch.front, patch.back}) put_colour(out, colours.of(bin, per_watt));
+    for (const uint32_t bin : {patch.front, patch.back}) {
+      put_colour(out, colours.of(bin, per_watt));
+      out.half(readout.lumens(scene.blocks.patches, bin, 0, group).value / patch.area_m2);
+    }
   }
   put_colour(out, light_on_surfaces(readout, scene, patches, group));
   return out.take();

@@ -39,7 +39,9 @@ Json states_json(const SceneDescription& scene, const SceneEdits& edits) {
   return {{"from", scene.time->from_s},
           {"to", scene.time->to_s},
           {"step", scene.time->step_s},
-          {"at", *edits.at_s}};
+          {"at", *edits.at_s},
+          {"mains_fail_at",
+           scene.time->mains_fail_at_s ? Json(*scene.time->mains_fail_at_s) : Json()}};
 }
 
 double number_of(const std::map<std::string, double>& numbers, const std::string& group) {
@@ -199,6 +201,38 @@ Json gloss_json(const std::vector<LiveGloss>& all) {
   return out;
 }
 
+Json places(const std::vector<glm::dvec3>& all) {
+  Json out = Json::array();
+  for (const glm::dvec3& one : all) out.push_back(place(one));
+  return out;
+}
+
+Json routes_json(const SceneDescription& scene) {
+  Json out = Json::array();
+  for (const EscapeRoute& route : scene.routes)
+    out.push_back({{"name", route.name}, {"width", route.width_m}, {"path", places(route.path)}});
+  return out;
+}
+
+/// Open areas and task areas.
+Json areas_json(const SceneDescription& scene) {
+  Json out = Json::array();
+  for (const auto* areas : {&scene.open_areas, &scene.task_areas})
+    for (const AssessedArea& area : *areas) {
+      Json outline = Json::array();
+      for (const glm::dvec2& corner : area.outline) outline.push_back({corner.x, corner.y});
+      out.push_back({{"name", area.name}, {"outline", std::move(outline)}, {"z", area.z_m}});
+    }
+  return out;
+}
+
+Json emphasis_json(const SceneDescription& scene) {
+  Json out = Json::array();
+  for (const EmphasisPoint& point : scene.emphasis)
+    out.push_back({{"name", point.name}, {"position", place(point.position)}});
+  return out;
+}
+
 Json voxels_json(const CompiledScene& scene) {
   const VoxelGrid& grid = scene.voxels;
   if (!(grid.edge > 0)) return {};
@@ -245,6 +279,10 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"groups", groups_json(generation, dimming, follows)},
           {"signs", signs_json(compiled, generation.edits)},
           {"luminaires", luminaires_json(*compiled.description, generation.edits)},
+          {"routes", routes_json(scene)},
+          {"areas", areas_json(scene)},
+          {"emphasis", emphasis_json(scene)},
+          {"north_deg", scene.project.north_deg},
           {"observers", observers},
           {"cameras", cameras},
           {"voxels", voxels_json(compiled)},

@@ -11,6 +11,7 @@
 #include "scenes/light/signs/onset.hpp"
 #include "scenes/light/signs/sign_colours.hpp"
 #include "scenes/light/signs/sign_light.hpp"
+#include "scenes/light/world/design.hpp"
 #include "scenes/light/world/measurements.hpp"
 
 namespace luxodus {
@@ -36,14 +37,19 @@ std::string numbers(const glm::dvec3& v) {
          "]";
 }
 
-/// Adds a copy of the named element; false if there is none.
 template <class List>
-bool add_copy(List& list, const SceneEdits::Copy& copy) {
-  const auto original =
-      std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == copy.of; });
-  if (original == list.end()) return false;
-  auto added = *original;
-  added.name = copy.name;
+auto named(const List& list, const std::string& name) {
+  const auto at =
+      std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+  return at == list.end() ? nullptr : &*at;
+}
+
+/// Adds a copy of an element; false if it is null.
+template <class Thing>
+bool add_copy(std::vector<Thing>& list, const Thing* original, const std::string& name) {
+  if (original == nullptr) return false;
+  Thing added = *original;
+  added.name = name;
   list.push_back(std::move(added));
   return true;
 }
@@ -71,13 +77,27 @@ std::string group_of_flame(const std::string& medium) {
   return "flame " + medium;
 }
 
+const Emitter* luminaire_to_copy(const SceneDescription& scene, const SceneEdits::Copy& copy) {
+  if (!copy.of_type) return named(scene.emitters, copy.of);
+  const DesignType* const type = scene.design ? named(scene.design->types, copy.of) : nullptr;
+  return type != nullptr && type->stated ? &type->emitter : nullptr;
+}
+
+const Sign* sign_to_copy(const SceneDescription& scene, const SceneEdits::Copy& copy) {
+  if (!copy.of_type) return named(scene.signs, copy.of);
+  const DesignSignType* const type =
+      scene.design ? named(scene.design->sign_types, copy.of) : nullptr;
+  return type != nullptr && type->stated ? &type->sign : nullptr;
+}
+
 Result<SceneDescription> live_description(const SceneDescription& scene, const SceneEdits& edits) {
   SceneDescription out = scene;
   clear_measurements(out);
   out.run.batch_particles = live_batch_particles;
   out.run.groups = GroupRule::by_circuit;  // a named group wins over the circuit
   for (const SceneEdits::Copy& copy : edits.added)
-    if (!(copy.is_sign ? add_copy(out.signs, copy) : add_copy(out.emitters, copy)))
+    if (!(copy.is_sign ? add_copy(out.signs, sign_to_copy(out, copy), copy.name)
+                       : add_copy(out.emitters, luminaire_to_copy(out, copy), copy.name)))
       return problem_in(scene.file, "there is no \"" + copy.of + "\" to copy");
   for (Emitter& e : out.emitters) {
     e.group = group_of_luminaire(e.name);
@@ -187,7 +207,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_dimmed(
 }
 
 std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits,
-                          const std::string& of) {
+                          const std::string& of, bool of_type) {
   // Groups are identified by name, and a luminaire's may equal that of a sign.
   std::set<std::string> taken;
   const auto take = [&](const std::string& name, const std::string& group) {
@@ -199,7 +219,7 @@ std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits
   for (const Medium& medium : scene.media) take(medium.name, group_of_flame(medium.name));
   for (const SceneEdits::Copy& copy : edits.added)
     take(copy.name, copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name));
-  const std::string first = without_count(of) + " copy";
+  const std::string first = of_type ? of : without_count(of) + " copy";
   std::string name = first;
   for (int i = 2; taken.count(name) + taken.count(group_of_sign(name)) > 0; ++i)
     name = first + " " + std::to_string(i);
@@ -232,8 +252,10 @@ std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,
   for (const SceneEdits::Copy& copy : edits.added) {
     const auto& moves = copy.is_sign ? edits.signs : edits.luminaires;
     const auto group = copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name);
-    change(copy.is_sign ? "sign" : "luminaire", copy.of, copy.name, move_of(moves, copy.name),
-           factor_of(group));
+    const char* const kind = copy.of_type ? (copy.is_sign ? "design_sign" : "design_type")
+                             : copy.is_sign ? "sign"
+                                            : "luminaire";
+    change(kind, copy.of, copy.name, move_of(moves, copy.name), factor_of(group));
   }
   for (const Emitter& e : scene.emitters) {
     const double factor = factor_of(group_of_luminaire(e.name));

@@ -17,16 +17,21 @@ struct SceneEdits {
   struct Move {
     glm::dvec3 position{0};
     std::optional<glm::dvec3> facing;
+    bool operator==(const Move&) const = default;
   };
   std::map<std::string, Move> signs, luminaires;  // by name, including copies
-  /// A copy of a sign or luminaire of the scene, placed by its own move.
+  /// A copy of a sign or luminaire of the scene, or one of a type of its design; placed by its own
+  /// move.
   struct Copy {
     bool is_sign = true;
     std::string of, name;
+    bool of_type = false;  // `of` names a [[design.type]] or a [[design.sign]]
+    bool operator==(const Copy&) const = default;
   };
   std::vector<Copy> added = {};  // in order of creation
   /// Time of the state, if the scene has a clock; none: as opened [s].
   std::optional<double> at_s = {};
+  bool operator==(const SceneEdits&) const = default;
 };
 
 /// Name of the source group of an emitter, a sign or a flame.
@@ -65,10 +70,15 @@ Result<std::shared_ptr<const CompiledScene>> compile_dimmed(
     const SceneDescription& scene, const SceneEdits& edits,
     const std::map<std::string, double>& factors);
 
+/// What a copy is made of, without its name and place; null if there is none.
+const Emitter* luminaire_to_copy(const SceneDescription& scene, const SceneEdits::Copy& copy);
+const Sign* sign_to_copy(const SceneDescription& scene, const SceneEdits::Copy& copy);
+
 /// A name for a copy of a sign or luminaire that neither the scene nor the edits use: "exit copy",
-/// then "exit copy 2"; copies of copies continue the numbering.
+/// then "exit copy 2"; copies of copies continue the numbering. Of a type: "downlight", then
+/// "downlight 2".
 std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits,
-                          const std::string& of);
+                          const std::string& of, bool of_type);
 
 /// A scene file that includes the original and lists the differences.
 std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,

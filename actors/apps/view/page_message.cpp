@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/apps/view/edit_history.hpp"
 #include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
@@ -102,6 +103,7 @@ AddEdit read_add(Members& m) {
   AddEdit out;
   out.is_sign = m.is_sign("kind");
   out.of = m.text("of");
+  if (m.has("of_type")) out.of_type = m.flag("of_type");
   out.position = m.vector("position");
   if (m.has("facing")) out.facing = m.vector("facing");
   return out;
@@ -139,6 +141,7 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
   if (type == "add") return read_add(m);
   if (type == "remove") return RemoveEdit{m.text("name")};
   if (type == "save") return SaveEdit{m.text("name")};
+  if (type == "history") return HistoryEdit{m.whole("done", limits::view_steps)};
   if (type == "edit") return EditWish{m.flag("wanted")};
   if (type == "probe")
     return ProbeAsk{m.whole("id", int64_t{1} << 53),
@@ -146,6 +149,7 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
   if (type == "judge") return JudgeAsk{m.text("sign")};
   if (type == "render") return read_render(m);
   if (type == "stop_render") return RenderStop{};
+  if (type == "checks") return ChecksAsk{};
   if (type == "suggest") return SuggestAsk{m.texts("free", limits::view_added)};
   return std::nullopt;
 }
@@ -176,7 +180,8 @@ bool is_edit(const PageMessage& message) {
          !std::holds_alternative<JudgeAsk>(message) &&
          !std::holds_alternative<RenderAsk>(message) &&
          !std::holds_alternative<RenderStop>(message) &&
-         !std::holds_alternative<SuggestAsk>(message);
+         !std::holds_alternative<SuggestAsk>(message) &&
+         !std::holds_alternative<ChecksAsk>(message);
 }
 
 }  // namespace luxodus

@@ -50,6 +50,7 @@ struct MoveEdit {
 struct AddEdit {
   bool is_sign = true;  // else a luminaire
   std::string of;
+  bool of_type = false;  // `of` is a type of the design
   glm::dvec3 position{0};
   std::optional<glm::dvec3> facing;
 };
@@ -58,6 +59,10 @@ struct RemoveEdit {
 };
 struct SaveEdit {
   std::string name;
+};
+/// Undoes or redoes steps: the building as after the first `done` ones.
+struct HistoryEdit {
+  int64_t done = 0;
 };
 struct EditWish {
   bool wanted = false;
@@ -84,9 +89,12 @@ struct RenderStop {};
 struct SuggestAsk {
   std::vector<std::string> free;
 };
-using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit,
-                                 AddEdit, RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk,
-                                 RenderAsk, RenderStop, SuggestAsk>;
+/// Asks for the checks of the codes.
+struct ChecksAsk {};
+using PageMessage =
+    std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit, AddEdit,
+                 RemoveEdit, SaveEdit, HistoryEdit, EditWish, ProbeAsk, JudgeAsk, RenderAsk,
+                 RenderStop, SuggestAsk, ChecksAsk>;
 
 /// Errors: an invalid message, one sentence.
 Result<PageMessage> decode_page_message(std::string_view text);

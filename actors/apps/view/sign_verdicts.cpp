@@ -11,7 +11,9 @@ namespace luxodus {
 
 namespace {
 
-constexpr int rounds = 3;
+constexpr int rounds(VerdictCare care) {
+  return care == VerdictCare::provisional ? 1 : 3;
+}
 
 /// The building with all changes of viewers, including dimming.
 Result<SceneDescription> as_it_stands(const SceneDescription& scene, const SceneEdits& edits,
@@ -59,7 +61,8 @@ std::string state_note(const SceneDescription& scene, const Scenario& scenario) 
 
 Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
                    const std::map<std::string, double>& factors, const std::string& sign,
-                   const LiveOptions& options, const std::atomic<bool>& interrupt) {
+                   VerdictCare care, const LiveOptions& options,
+                   const std::atomic<bool>& interrupt) {
   const auto refused = [](const std::string& why) -> Json {
     return {{"type", "refused"}, {"why", why}};
   };
@@ -75,7 +78,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   AssessOptions asked;
   asked.seed = options.seed;
   asked.threads = options.threads;
-  asked.rounds = rounds;
+  asked.rounds = rounds(care);
   asked.sign = sign;
   Assessment found;
   const auto done = assess_sights(
@@ -93,6 +96,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   return {{"type", "sign"},
           {"name", sign},
           {"rows", rows},
+          {"provisional", care == VerdictCare::provisional},
           {"note", state_note(now.value(), thickened(scenario.value(), edits.smoke))}};
 }
 

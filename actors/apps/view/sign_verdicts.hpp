@@ -9,9 +9,14 @@
 
 namespace luxodus {
 
+/// How well verdicts are known: provisional ones come in a third of the time, and more of them are
+/// undecided.
+enum class VerdictCare { provisional, sure };
+
 /// A message of type "sign", or "refused" with the reason.
 Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
                    const std::map<std::string, double>& factors, const std::string& sign,
-                   const LiveOptions& options, const std::atomic<bool>& interrupt);
+                   VerdictCare care, const LiveOptions& options,
+                   const std::atomic<bool>& interrupt);
 
 }  // namespace luxodus

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actors/apps/view/sign_verdicts.hpp"
-#include "actors/apps/view/suggestions.hpp"
+#include "actors/apps/view/library.hpp"
 #include "actors/judge/assess/assessment_inputs.hpp"
 #include "actors/judge/inspect/inspect.hpp"
 #include "runtime/core/atomic_file.hpp"
@@ -29,12 +28,6 @@ bool is_there(const SceneDescription& scene, bool is_sign, const std::string& na
   const auto is_it = [&](const auto& one) { return one.name == name; };
   return is_sign ? std::any_of(scene.signs.begin(), scene.signs.end(), is_it)
                  : std::any_of(scene.emitters.begin(), scene.emitters.end(), is_it);
-}
-
-bool is_mesh(const SceneDescription& scene, const std::string& luminaire) {
-  return std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
-    return e.name == luminaire && e.shape == EmitterShape::mesh;
-  });
 }
 
 /// Whether a name is a plain file name.
@@ -82,24 +75,25 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
       options_(options),
       post_(std::move(post)),
       edits_(options.first),
-      backdrops_(backdrops_json(backdrops_of(*scene_)).dump()) {
+      history_({options.first, {}}),
+      backdrops_(backdrops_json(backdrops_of(*scene_)).dump()),
+      library_(library_json(*scene_).dump()) {
   if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario)
     dimming_.seconds = seconds_said(scenario.value());
   if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;
   trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
-  pictures_ = std::make_unique<ViewPictures>(
-      options_.live, [this](std::optional<double> at_s) { return scene_as_opened(at_s); },
-      [this](uint64_t number, const Json& message) {
-        post_([this, number, text = text_of(message)] {
-          if (Viewer* const viewer = viewer_of(number)) viewer->send_text(text);
-        });
-      },
-      options_.pictures);
+  const auto scene_at = [this](std::optional<double> at_s) { return scene_as_opened(at_s); };
+  const auto tell = [this](uint64_t number, const Json& message) {
+    post_([this, number, text = text_of(message)] {
+      if (Viewer* const viewer = viewer_of(number)) viewer->send_text(text);
+    });
+  };
+  pictures_ = std::make_unique<ViewPictures>(options_.live, scene_at, tell, options_.pictures);
+  answers_ = std::make_unique<ViewAnswers>(options_.live, scene_at, tell);
 }
 
 ViewHub::~ViewHub() {
-  ends_ = true;
-  if (answering_.joinable()) answering_.join();
+  answers_.reset();
   pictures_.reset();
   trace_.reset();
 }
@@ -183,7 +177,11 @@ void ViewHub::answers(const LiveAnswer& answer) {
 void ViewHub::refuses(uint64_t number, const std::string& why) {
   post_([this, number, why] {
     // Later edits are judged by themselves, including what remains of the refused ones.
-    if (number == wish_number_) take_back();
+    if (number == wish_number_) {
+      take_back();
+      history_.take_back({edits_, dimming_.factors});
+      to_all(history_json());
+    }
     to_all({{"type", "refused"}, {"why", why}});
   });
 }
@@ -215,11 +213,13 @@ Viewer* ViewHub::viewer_of(uint64_t number) const {
 void ViewHub::joins(Viewer& viewer) {
   viewers_[&viewer] = next_number_++;
   if (editor_ == nullptr) editor_ = &viewer;
+  viewer.send_text(text_of(history_json()));
   if (generation_.scene) greet(viewer);
 }
 
 void ViewHub::leaves(Viewer& viewer) {
   pictures_->cancel(viewers_[&viewer]);
+  answers_->forget(viewers_[&viewer]);
   viewers_.erase(&viewer);
   if (editor_ == &viewer) editor_ = nullptr;
 }
@@ -272,6 +272,7 @@ void ViewHub::handle(Viewer& viewer, const FactorEdit& edit) {
     return refuse(viewer, "there is no light \"" + edit.group + "\" in this scenario");
   dimming_.factors[edit.group] = edit.factor;
   to_all({{"type", "factors"}, {"factors", {{edit.group, edit.factor}}}});
+  note(EditKind::factor, edit.group, edit.factor);
 }
 
 void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
@@ -279,11 +280,13 @@ void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   if (!found) return refuse(viewer, found.problem().what);
   edits_.scenario = edit.name;
   take_seconds(edit.name);
+  note(EditKind::scenario, edit.name);
   trace_edits();
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
   edits_.smoke = edit.factor;
+  note(EditKind::smoke, "", edit.factor);
   trace_edits();
 }
 
@@ -331,6 +334,7 @@ void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
   auto& moves = edit.is_sign ? edits_.signs : edits_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
+  note(EditKind::move, edit.name);
   trace_edits();
 }
 
@@ -363,12 +367,15 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
                               " can be added in one view: save it as a variant and view that");
   // A copy of a copy refers to the scene's original, so that either may be removed.
   const auto copied = added(edit.of);
-  const bool of_copy = copied != edits_.added.end() && copied->is_sign == edit.is_sign;
+  const bool of_copy =
+      !edit.of_type && copied != edits_.added.end() && copied->is_sign == edit.is_sign;
   const SceneEdits::Copy copy{edit.is_sign, of_copy ? copied->of : edit.of,
-                              name_for_copy(*scene_, edits_, edit.of)};
-  if (!is_there(*scene_, copy.is_sign, copy.of))
+                              name_for_copy(*scene_, edits_, edit.of, edit.of_type),
+                              of_copy ? copied->of_type : edit.of_type};
+  const Emitter* const luminaire = copy.is_sign ? nullptr : luminaire_to_copy(*scene_, copy);
+  if (luminaire == nullptr && (!copy.is_sign || sign_to_copy(*scene_, copy) == nullptr))
     return refuse(viewer, "there is no \"" + edit.of + "\" to copy");
-  if (!copy.is_sign && is_mesh(*scene_, copy.of))
+  if (luminaire != nullptr && luminaire->shape == EmitterShape::mesh)
     return refuse(viewer, "\"" + edit.of + "\" is a mesh, which does not move: it is not copied");
   if (copy.name.size() > limits::view_name_chars)
     return refuse(viewer, "the copy's name would be too long: give the original a shorter one");
@@ -387,6 +394,7 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
                             {"kind", copy.is_sign ? "sign" : "luminaire"},
                             {"of", edit.of},
                             {"name", copy.name}}));
+  note(EditKind::add, copy.name);
   trace_edits();
 }
 
@@ -398,7 +406,55 @@ void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
   (copy->is_sign ? edits_.signs : edits_.luminaires).erase(edit.name);
   dimming_.factors.erase(copy->is_sign ? group_of_sign(edit.name) : group_of_luminaire(edit.name));
   edits_.added.erase(copy);
+  note(EditKind::remove, edit.name);
   trace_edits();
+}
+
+void ViewHub::note(EditKind kind, const std::string& name, std::optional<double> value) {
+  EditStep step{kind, {}, value};
+  if (!name.empty()) step.names.push_back(name);
+  history_.note(std::move(step), {edits_, dimming_.factors}, std::chrono::steady_clock::now());
+  to_all(history_json());
+}
+
+Json ViewHub::history_json() const {
+  Json steps = Json::array();
+  for (const EditStep& step : history_.steps())
+    steps.push_back({{"kind", name_of(step.kind)},
+                     {"name", step.names.empty() ? Json() : Json(step.names.front())},
+                     {"count", step.names.size()},
+                     {"value", step.value ? Json(*step.value) : Json()}});
+  return {{"type", "history"}, {"steps", std::move(steps)}, {"done", history_.done()}};
+}
+
+void ViewHub::handle(Viewer& viewer, const HistoryEdit& edit) {
+  const auto done = static_cast<size_t>(edit.done);
+  if (done > history_.steps().size())
+    return refuse(viewer, "there are only " + std::to_string(history_.steps().size()) +
+                              " steps to undo or redo");
+  const EditedState state = history_.go_to(done);
+  SceneEdits edits = state.edits;
+  edits.at_s = edits_.at_s;
+  dim_as(state.factors);
+  if (edits.scenario != edits_.scenario) take_seconds(edits.scenario);
+  const bool traced_anew = !(edits == edits_);
+  edits_ = std::move(edits);
+  to_all(history_json());
+  if (traced_anew) trace_edits();
+}
+
+void ViewHub::dim_as(const std::map<std::string, double>& factors) {
+  const auto of = [](const std::map<std::string, double>& all, const std::string& group) {
+    const auto at = all.find(group);
+    return at == all.end() ? 1.0 : at->second;
+  };
+  std::map<std::string, double> either = factors;
+  either.insert(dimming_.factors.begin(), dimming_.factors.end());
+  Json changed = Json::object();
+  for (const auto& [group, ignored] : either)
+    if (of(factors, group) != of(dimming_.factors, group)) changed[group] = of(factors, group);
+  dimming_.factors = factors;
+  if (!changed.empty()) to_all({{"type", "factors"}, {"factors", std::move(changed)}});
 }
 
 void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
@@ -446,39 +502,12 @@ void ViewHub::handle(Viewer& viewer, const SuggestAsk& ask) {
   put(viewer, ask);
 }
 
-void ViewHub::put(Viewer& viewer, Question question) {
-  const uint64_t number = viewers_[&viewer];
-  const auto waits = std::find_if(questions_.begin(), questions_.end(),
-                                  [&](const auto& one) { return one.first == number; });
-  if (waits != questions_.end())
-    waits->second = std::move(question);
-  else
-    questions_.emplace_back(number, std::move(question));
-  answer_next();
+void ViewHub::handle(Viewer& viewer, const ChecksAsk& ask) {
+  put(viewer, ask);
 }
 
-void ViewHub::answer_next() {
-  if (is_answering_ || questions_.empty()) return;
-  const auto [number, question] = questions_.front();
-  questions_.pop_front();
-  if (viewer_of(number) == nullptr) return answer_next();
-  is_answering_ = true;
-  if (answering_.joinable()) answering_.join();
-  // Runs beside the tracing, and shares the processors with it for some seconds.
-  answering_ = std::thread(
-      [this, asker = number, asked = question, edits = edits_, factors = dimming_.both()] {
-        Json answer;
-        try {
-          answer = answer_to(asked, edits, factors);
-        } catch (const std::exception& e) {
-          answer = {{"type", "refused"}, {"why", e.what()}};
-        }
-        post_([this, asker, answer] {
-          is_answering_ = false;
-          if (Viewer* const viewer = viewer_of(asker)) viewer->send_text(text_of(answer));
-          answer_next();
-        });
-      });
+void ViewHub::put(Viewer& viewer, ViewQuestion question) {
+  answers_->put({viewers_[&viewer], std::move(question), edits_, dimming_});
 }
 
 Result<std::shared_ptr<const SceneDescription>> ViewHub::scene_as_opened(
@@ -487,24 +516,6 @@ Result<std::shared_ptr<const SceneDescription>> ViewHub::scene_as_opened(
   if (scene_->files)
     if (auto ok = scene_->files->unchanged_on_disk(); !ok) return ok.problem();
   return trace_->scene_at(at_s);
-}
-
-Json ViewHub::answer_to(const Question& question, const SceneEdits& edits,
-                        const std::map<std::string, double>& factors) const {
-  const auto* const suggest = std::get_if<SuggestAsk>(&question);
-  const auto refused = [&](const Problem& why) {
-    Json out = {{"type", "refused"}, {"why", why.text()}};
-    if (suggest != nullptr) out["suggestion"] = true;
-    return out;
-  };
-  const auto scene = scene_as_opened(edits.at_s);
-  if (!scene) return refused(scene.problem());
-  if (suggest != nullptr)
-    return suggestion(*scene.value(), edits, suggest->free, options_.live, ends_);
-  const auto judged = options_.live.judged ? options_.live.judged->at(edits.at_s) : scene;
-  if (!judged) return refused(judged.problem());
-  return sign_verdicts(*judged.value(), edits, factors, std::get<JudgeAsk>(question).sign,
-                       options_.live, ends_);
 }
 
 }  // namespace luxodus

@@ -3,13 +3,14 @@
 // on the server's thread; results of the tracing thread are posted there.
 #pragma once
 
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <set>
 
+#include "actors/apps/view/edit_history.hpp"
 #include "actors/apps/view/live_json.hpp"
 #include "actors/apps/view/page_message.hpp"
+#include "actors/apps/view/view_answers.hpp"
 #include "actors/apps/view/view_pictures.hpp"
 #include "actors/results/formats/json_out.hpp"
 
@@ -47,6 +48,8 @@ class ViewHub final : private LiveAudience {
   size_t viewers() const { return viewers_.size(); }
   /// Drawings under plans, as JSON text: made once at the start, since no edit changes them.
   const std::string& backdrops() const { return backdrops_; }
+  /// What viewers may add, as JSON text: made once at the start.
+  const std::string& library() const { return library_; }
   /// People who walk, as JSON text.
   const std::string& people() const { return options_.people; }
 
@@ -66,15 +69,22 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const AddEdit& edit);
   void handle(Viewer& viewer, const RemoveEdit& edit);
   void handle(Viewer& viewer, const SaveEdit& edit);
+  void handle(Viewer& viewer, const HistoryEdit& edit);
   void handle(Viewer& viewer, const EditWish& edits);
   void handle(Viewer& viewer, const ProbeAsk& ask);
   void handle(Viewer& viewer, const JudgeAsk& ask);
   void handle(Viewer& viewer, const RenderAsk& ask);
   void handle(Viewer& viewer, const RenderStop& stop);
   void handle(Viewer& viewer, const SuggestAsk& ask);
+  void handle(Viewer& viewer, const ChecksAsk& ask);
   /// Has the edits traced. They may be refused until that begins, and are then taken back.
   void trace_edits();
   void take_back();
+  /// Records that an edit has changed the state, and tells all viewers.
+  void note(EditKind kind, const std::string& name, std::optional<double> value = {});
+  Json history_json() const;
+  /// Dims all groups that differ from these factors, and tells all viewers.
+  void dim_as(const std::map<std::string, double>& factors);
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);
   void greet(Viewer& viewer);
@@ -86,16 +96,11 @@ class ViewHub final : private LiveAudience {
   /// Whether something can be placed there; tells the viewer why not.
   bool can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
                  const std::optional<glm::dvec3>& facing);
-  /// A question whose answer takes seconds: a sign to judge, or luminaires to suggest.
-  using Question = std::variant<JudgeAsk, SuggestAsk>;
-  void put(Viewer& viewer, Question question);
-  /// Starts the next pending question, unless one is being answered.
-  void answer_next();
+  /// Asks about the building in its present state, in an answer that takes seconds.
+  void put(Viewer& viewer, ViewQuestion question);
   /// The scene at a time, for answers and pictures. Errors: files that have changed since the view
   /// was opened; as LiveTrace::scene_at.
   Result<std::shared_ptr<const SceneDescription>> scene_as_opened(std::optional<double> at_s) const;
-  Json answer_to(const Question& question, const SceneEdits& edits,
-                 const std::map<std::string, double>& factors) const;
   void make_editor(Viewer* viewer);
   /// The scene at the time of the generation; as opened, before the first.
   const SceneDescription& scene_now() const {
@@ -117,17 +122,15 @@ class ViewHub final : private LiveAudience {
   SceneEdits edits_;  // result of the last edit
   uint64_t wish_number_ = 0;
   LiveDimming dimming_;
+  EditHistory history_;
   LiveGeneration generation_;
   /// The latest frames by kind and group, of any generation that they are valid for.
   std::map<std::pair<uint32_t, uint32_t>, LiveFrame> light_;
   std::optional<LiveProgress> progress_;
-  std::atomic<bool> ends_{false};
-  std::thread answering_;
-  bool is_answering_ = false;
-  std::deque<std::pair<uint64_t, Question>> questions_;  // by viewer: the last question of each
-  const std::string backdrops_;
-  std::unique_ptr<LiveTrace> trace_;        // declared last but one: it calls back at once
+  const std::string backdrops_, library_;
+  std::unique_ptr<LiveTrace> trace_;        // calls back at once: members above exist by then
   std::unique_ptr<ViewPictures> pictures_;  // uses the scene of trace_
+  std::unique_ptr<ViewAnswers> answers_;    // likewise
 };
 
 }  // namespace luxodus

@@ -40,6 +40,8 @@ Result<std::unique_ptr<ViewServer>> ViewServer::listen(const HttpAddress& at) {
   site.page = [self = view.get()](std::string_view path) -> std::optional<HttpPage> {
     if (path == "/backdrops.json" && self->hub_ != nullptr)
       return HttpPage{self->hub_->backdrops(), "application/json"};
+    if (path == "/library.json" && self->hub_ != nullptr)
+      return HttpPage{self->hub_->library(), "application/json"};
     if (path == "/people.json" && self->hub_ != nullptr)
       return HttpPage{self->hub_->people(), "application/json"};
     if (path != "/") return std::nullopt;

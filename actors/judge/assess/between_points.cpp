@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "scenes/emergency/far_field.hpp"
@@ -65,10 +66,26 @@ double shape_of_light(const Lamp& lamp, const glm::dvec3& place) {
   return intensity * cosine / square;
 }
 
+/// An upper bound on shape_of_light within a gap.
+double most_shape(const Lamp& lamp, const GridGap& gap) {
+  const Emitter& e = *lamp.emitter;
+  if (e.distribution != Distribution::web) return std::numeric_limits<double>::infinity();
+  const glm::dvec3 side = 0.5 * (gap.along + gap.across);
+  const glm::dvec3 middle = gap.from + side;
+  const double radius =
+      std::max(glm::length(side), 0.5 * glm::length(gap.along - gap.across)) + floor_plane_m;
+  const double above = lamp.centre.z - middle.z + radius;
+  const double nearest = glm::length(lamp.centre - middle) - radius;
+  if (!(above > 0)) return 0;
+  if (!(nearest > 0)) return std::numeric_limits<double>::infinity();
+  return e.web->peak_cd() / e.web->flux_lm() * above / (nearest * nearest * nearest);
+}
+
 /// A luminaire that lights a corner of a gap, with the shares of its unhidden light at corners.
 struct GapLuminaire {
   Lamp lamp;
   double factor = 1, least = std::numeric_limits<double>::infinity(), most = 0;
+  double rest = 0;  // upper bound on the estimate of this one and those that follow in the gap
 };
 
 enum class Extreme { least, most };
@@ -103,8 +120,8 @@ class GapSearch {
   std::vector<GapLuminaire> luminaires_of(const GridGap& gap,
                                           const LuminaireFactors& factors) const;
   Guess guess(const GridGap& gap, Extreme extreme, const LuminaireFactors& factors) const;
-  static double estimate(const std::vector<GapLuminaire>& luminaires, const glm::dvec3& place,
-                         Extreme extreme);
+  static bool is_beyond(const std::vector<GapLuminaire>& luminaires, const glm::dvec3& place,
+                        Extreme extreme, std::optional<double>& best);
   /// Computes the light at places outside bodies.
   void look_at(const std::vector<glm::dvec3>& places);
   double lux_of(const LitPoint& point, const LuminaireFactors& factors) const {
@@ -151,16 +168,27 @@ std::vector<GapLuminaire> GapSearch::luminaires_of(const GridGap& gap,
     }
     if (one.most > 0) out.push_back(one);
   }
+  double rest = 0;
+  for (auto one = out.rbegin(); one != out.rend(); ++one)
+    one->rest = rest += one->factor * one->most * most_shape(one->lamp, gap);
   return out;
 }
 
-double GapSearch::estimate(const std::vector<GapLuminaire>& luminaires, const glm::dvec3& place,
-                           Extreme extreme) {
+/// Whether the estimate at a place is beyond the best one, which it then becomes. Most places are
+/// not, and known not to be before all luminaires are summed: their light is never negative, and
+/// what the others add at most is known.
+bool GapSearch::is_beyond(const std::vector<GapLuminaire>& luminaires, const glm::dvec3& place,
+                          Extreme extreme, std::optional<double>& best) {
+  constexpr double rounding = 1 + 1e-9;
+  const bool least = extreme == Extreme::least;
   double lux = 0;
-  for (const GapLuminaire& one : luminaires)
-    lux += one.factor * (extreme == Extreme::least ? one.least : one.most) *
-           shape_of_light(one.lamp, place);
-  return lux;
+  for (const GapLuminaire& one : luminaires) {
+    if (best && (least ? lux >= *best : rounding * (lux + one.rest) <= *best)) return false;
+    lux += one.factor * (least ? one.least : one.most) * shape_of_light(one.lamp, place);
+  }
+  if (best && (least ? lux >= *best : lux <= *best)) return false;
+  best = lux;
+  return true;
 }
 
 Guess GapSearch::guess(const GridGap& gap, Extreme extreme, const LuminaireFactors& factors) const {
@@ -178,13 +206,10 @@ Guess GapSearch::guess(const GridGap& gap, Extreme extreme, const LuminaireFacto
     return std::clamp(static_cast<int>(std::ceil(length / (nearest * place_angle))), 2, max_places);
   };
   const int nu = count(gap.along), nv = count(gap.across);
-  const double sign = extreme == Extreme::least ? 1 : -1;
   glm::dvec2 best(0.5);
-  double best_lux = std::numeric_limits<double>::infinity();
+  std::optional<double> best_lux;
   const auto offer = [&](const glm::dvec2& uv) {
-    const double lux = sign * estimate(luminaires, at(uv) + lift, extreme);
-    if (lux >= best_lux) return false;
-    best_lux = lux;
+    if (!is_beyond(luminaires, at(uv) + lift, extreme, best_lux)) return false;
     best = uv;
     return true;
   };
@@ -197,10 +222,11 @@ Guess GapSearch::guess(const GridGap& gap, Extreme extreme, const LuminaireFacto
     const glm::dvec2 centre = best;
     for (const double u : {-1.0, 0.0, 1.0})
       for (const double v : {-1.0, 0.0, 1.0})
-        any = offer(glm::clamp(centre + step * glm::dvec2(u, v), 0.0, 1.0)) || any;
+        if (u != 0 || v != 0)
+          any = offer(glm::clamp(centre + step * glm::dvec2(u, v), 0.0, 1.0)) || any;
     if (!any) step /= 2.0;
   }
-  return {sign * best_lux, at(best)};
+  return {best_lux.value_or(0), at(best)};
 }
 
 void GapSearch::look_for(Extreme extreme, const LuminaireFactors& factors) {

@@ -254,9 +254,15 @@ void find_floors(const SceneDescription& scene, const Building& building, Assess
 
 }  // namespace
 
-Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
-                             const AssessOptions& options, const AssessProgress& progress,
-                             Assessment& out) {
+namespace {
+
+/// What is asked of a building beside its checks: called once, without furniture.
+using Beside = std::function<void(const CodeMode& mode, const Building& building)>;
+
+Result<std::vector<Check>> checked(const SceneDescription& scene, const Scenario& scenario,
+                                   const std::vector<CodeChoice>& codes, int threads,
+                                   const AssessProgress& progress, const Beside& beside) {
+  std::vector<Check> out;
   const SceneDescription switched = after_circuits(scene, scenario);
   const SceneDescription now = as_switched(scene, scenario);
   const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
@@ -264,26 +270,43 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     if (furnished && !has_furniture) break;
     progress(furnished ? "codes, with furniture" : "codes, without furniture", furnished ? 0.5 : 0);
     auto building = Building::make(code_scene(switched, furnished),
-                                   code_scenario(switched, scenario), options.threads);
+                                   code_scenario(switched, scenario), threads);
     if (!building) return building.problem();
-    const CodeMode mode(switched, now, *building.value(), out.state.codes);
-    if (!furnished) {
-      mode.fill_plan(out.levels);
-      out.surfaces = mode.surfaces(out.levels);
-      find_floors(scene, *building.value(), out);
-    }
+    const CodeMode mode(switched, now, *building.value(), codes);
+    if (!furnished) beside(mode, *building.value());
     auto checks = mode.checks_by_light();
     if (has_furniture)
       add_condition(checks,
                     remark(furnished ? RemarkId::with_furniture : RemarkId::without_furniture));
-    append(out.checks, checks);
+    append(out, checks);
     if (furnished) continue;
-    append(out.checks, mode.checks_of_parts());
-    for (const CodeChoice& codes : out.state.codes)
-      out.checks.push_back(check_of_duration(scene, codes));
+    append(out, mode.checks_of_parts());
+    for (const CodeChoice& one : codes) out.push_back(check_of_duration(scene, one));
   }
   progress("codes", 1);
+  return out;
+}
+
+}  // namespace
+
+Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
+                             const AssessOptions& options, const AssessProgress& progress,
+                             Assessment& out) {
+  auto checks = checked(scene, scenario, out.state.codes, options.threads, progress,
+                        [&](const CodeMode& mode, const Building& building) {
+                          mode.fill_plan(out.levels);
+                          out.surfaces = mode.surfaces(out.levels);
+                          find_floors(scene, building, out);
+                        });
+  if (!checks) return checks.problem();
+  append(out.checks, checks.value());
   return {};
+}
+
+Result<std::vector<Check>> checks_by_codes(const SceneDescription& scene, const Scenario& scenario,
+                                           const std::vector<CodeChoice>& codes, int threads) {
+  return checked(scene, scenario, codes, threads, [](const std::string&, double) {},
+                 [](const CodeMode&, const Building&) {});
 }
 
 }  // namespace luxodus

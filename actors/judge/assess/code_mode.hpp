@@ -15,4 +15,8 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out);
 
+/// The checks alone, without a plan. Errors: as assess_by_codes.
+Result<std::vector<Check>> checks_by_codes(const SceneDescription& scene, const Scenario& scenario,
+                                           const std::vector<CodeChoice>& codes, int threads);
+
 }  // namespace luxodus

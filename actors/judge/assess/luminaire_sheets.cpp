@@ -41,17 +41,6 @@ double drawn(double value) {
   return drawn_lux(value).lux;
 }
 
-std::vector<double> curve(const Intensity& per_lm, double c_deg) {
-  const double c = c_deg * std::numbers::pi / 180;
-  const int half = static_cast<int>(180 / curve_step_deg);
-  std::vector<double> out;
-  for (int i = -half; i <= half; ++i) {
-    const double gamma = i * curve_step_deg * std::numbers::pi / 180, sine = std::sin(gamma);
-    out.push_back(drawn(1000 * per_lm({sine * std::cos(c), sine * std::sin(c), -std::cos(gamma)})));
-  }
-  return out;
-}
-
 SheetRecord sheet_of(const Emitter& e) {
   SheetRecord out{.maker = e.facts.maker,
                   .article = e.facts.article,
@@ -67,9 +56,8 @@ SheetRecord sheet_of(const Emitter& e) {
   if (e.facts.watts > 0) out.watts = e.facts.watts;
   if (e.duration_s) out.duration_h = *e.duration_s / 3600;
   if (e.facts.body_m != glm::dvec3(0)) out.body_m = e.facts.body_m;
-  if (!has_curves(e)) return out;
-  out.c0_c180 = curve(per_lm(e), 0);
-  out.c90_c270 = curve(per_lm(e), 90);
+  out.c0_c180 = intensity_curve(e, 0, curve_step_deg);
+  out.c90_c270 = intensity_curve(e, 90, curve_step_deg);
   return out;
 }
 
@@ -112,6 +100,20 @@ struct Mounted {
 };
 
 }  // namespace
+
+std::vector<double> intensity_curve(const Emitter& e, double c_deg, double step_deg) {
+  if (!has_curves(e)) return {};
+  const Intensity intensity = per_lm(e);
+  const double c = c_deg * std::numbers::pi / 180;
+  const int half = static_cast<int>(180 / step_deg);
+  std::vector<double> out;
+  for (int i = -half; i <= half; ++i) {
+    const double gamma = i * step_deg * std::numbers::pi / 180, sine = std::sin(gamma);
+    const glm::dvec3 local(sine * std::cos(c), sine * std::sin(c), -std::cos(gamma));
+    out.push_back(drawn(1000 * intensity(local)));
+  }
+  return out;
+}
 
 void add_sheets(const SceneDescription& scene, AssessmentRecord& record) {
   struct Key {

@@ -69,7 +69,9 @@ test('the states of a scene range from a time to a later one, or are absent', ()
   const server = new MockServer();
   assert.equal(read(server.scene(null)).states, null);
   const states = { from: 0, to: 90, step: 30, at: 60 };
-  assert.deepEqual(read({ ...server.scene(null), states }).states, states);
+  const decoded = (more) => read({ ...server.scene(null), states: { ...states, ...more } }).states;
+  assert.deepEqual(decoded({}), { ...states, mainsFailAt: null });
+  assert.equal(decoded({ mains_fail_at: 40 }).mainsFailAt, 40);
   const refused = (change) =>
     assert.throws(() => read({ ...server.scene(null), states: { ...states, ...change } }),
       ProtocolError);
@@ -159,8 +161,48 @@ test('a suggestion is decoded field by field, and refused with a wrong field', (
 
 test('a refusal names its picture or suggestion, if it concerns one', () => {
   const read = (more) => decodeMessage(JSON.stringify({ type: 'refused', why: 'so', ...more }));
-  assert.deepEqual(read({}), { type: 'refused', why: 'so', picture: null, suggestion: false });
+  assert.deepEqual(read({}), { type: 'refused', why: 'so', picture: null, suggestion: false,
+    checks: false });
   assert.equal(read({ picture: 7 }).picture, 7);
   assert.equal(read({ suggestion: true }).suggestion, true);
+  assert.equal(read({ checks: true }).checks, true);
   assert.throws(() => read({ picture: -1 }), ProtocolError);
+});
+
+test('steps of edits are decoded, and no more than there are hold', () => {
+  const steps = [{ kind: 'factor', name: 'lamp', count: 1, value: 0.5 },
+    { kind: 'smoke', name: null, count: 0, value: 2 }];
+  const history = decodeMessage(JSON.stringify({ type: 'history', steps, done: 1 }));
+  assert.deepEqual(history.steps[1], { kind: 'smoke', name: '', count: 0, value: 2 });
+  assert.equal(history.done, 1);
+  const bad = (more) => () =>
+    decodeMessage(JSON.stringify({ type: 'history', steps, done: 1, ...more }));
+  assert.throws(bad({ done: 3 }), ProtocolError);
+  assert.throws(bad({ steps: [{ kind: 'explode', count: 1 }] }), ProtocolError);
+});
+
+test('checks are decoded; values, limits and places may be unknown', () => {
+  const row = { rule: 'E1', title: 'Illuminance', clause: 'EN 1838 4.2.1', subject: 'route "way"',
+    conditions: '', verdict: 'fail', value: 0.8, limit: 1, at_least: true, unit: 'lx',
+    margin: -0.2, place: [1, 2, 0.02], reasons: '' };
+  const message = { type: 'checks', rows: [row, { rule: 'E9', title: 'Duration',
+    verdict: 'not assessed' }], counts: { fail: 1, 'not assessed': 1 }, words: '1 check fails',
+  seconds: 0.3 };
+  const { rows, counts } = read(message);
+  assert.deepEqual([rows[0].place, rows[0].atLeast, rows[0].margin], [[1, 2, 0.02], true, -0.2]);
+  assert.deepEqual([rows[1].value, rows[1].place, rows[1].subject], [null, null, '']);
+  assert.deepEqual(counts, { fail: 1, 'not assessed': 1 });
+  assert.throws(() => read({ ...message, rows: [{ ...row, verdict: 'fine' }] }), ProtocolError);
+  assert.throws(() => read({ ...message, rows: [{ ...row, place: [1, 2] }] }), ProtocolError);
+});
+
+test('routes have two places at least, and areas three corners', () => {
+  const way = { name: 'way', width: 1.2, path: [[0, 0, 0], [5, 0, 0]] };
+  const hall = { name: 'hall', z: 0, outline: [[0, 0], [4, 0], [4, 3]] };
+  const more = (fields) => read({ ...scene(), ...fields });
+  assert.deepEqual(more({ routes: [way], areas: [hall] }).areas, [hall]);
+  assert.throws(() => more({ routes: [{ ...way, path: [[0, 0, 0]] }] }), ProtocolError);
+  assert.throws(() => more({ areas: [{ ...hall, outline: [[0, 0], [4, 0]] }] }), ProtocolError);
+  assert.throws(() => more({ areas: [{ ...hall, outline: [[0, 0], [4, 0], [4]] }] }),
+    ProtocolError);
 });

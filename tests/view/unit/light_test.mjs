@@ -10,11 +10,13 @@ const halves = (...values) => Uint16Array.from(values, toHalf);
 
 test('light is the sum over groups of factor times light', () => {
   const sum = surfaceSum(1);
-  sum.set(0, halves(1, 2, 3, 4, 5, 6), 1);
-  sum.set(1, halves(10, 10, 10, 0, 0, 0), 0.5);
-  assert.deepEqual([...sum.sum], [6, 7, 8, 0, 4, 5, 6, 0]);
+  sum.set(0, halves(1, 2, 3, 40, 4, 5, 6, 60), 1);
+  sum.set(1, halves(10, 10, 10, 100, 0, 0, 0, 0), 0.5);
+  assert.deepEqual([...sum.sum], [6, 7, 8, 90, 4, 5, 6, 60]);
   sum.dim(0, 0);
-  assert.deepEqual([...sum.sum], [5, 5, 5, 0, 0, 0, 0, 0]);
+  assert.deepEqual([...sum.sum], [5, 5, 5, 50, 0, 0, 0, 0]);
+  sum.set(1, halves(2, 2, 2, 20, 0, 0, 0, 0), 0.5);
+  assert.deepEqual([...sum.sum], [1, 1, 1, 10, 0, 0, 0, 0]);
 });
 
 test('newer light of a group replaces its older light', () => {
@@ -124,9 +126,10 @@ test('another surface or another plane has its own points', () => {
 test('uniform light stays uniform when smoothed, and shared points take the mean by area', () => {
   const welded = weld(square);
   const out = new Float32Array(8 * welded.points);
-  smooth(Float32Array.of(2, 2, 2, 0, 1, 1, 1, 0, 4, 4, 4, 0, 1, 1, 1, 0), welded, out);
+  smooth(Float32Array.of(2, 2, 2, 20, 1, 1, 1, 0, 4, 4, 4, 40, 1, 1, 1, 0), welded, out);
   assert.equal(out[8 * welded.pointOf[0]], 3);
   assert.equal(out[8 * welded.pointOf[1]], 2);
   assert.equal(out[8 * welded.pointOf[5]], 4);
+  assert.equal(out[8 * welded.pointOf[0] + 3], 30);
   for (let p = 0; p < welded.points; ++p) assert.equal(out[8 * p + 4], 1);
 });

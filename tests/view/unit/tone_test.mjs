@@ -52,3 +52,19 @@ test('a sign that comes into view lowers the exposure, and it returns when the s
   exposure.adapt(1, true);
   assert.ok(Math.abs(shownBy(exposure.curve, exposure.scale) - alone) < 1e-6);
 });
+
+test('exposure begins with the first light, and not with the darkness before it', () => {
+  const exposure = new Exposure();
+  exposure.meter(new Float32Array(4 * 16));
+  assert.equal(exposure.adapt(0.1), false);
+  assert.equal(exposure.adapted, null);
+  const lit = new Float32Array(4 * 16);
+  for (let i = 0; i < lit.length; i += 4) lit.set([Math.log2(8), 1, 0.5, 0], i);
+  exposure.meter(lit);
+  assert.equal(exposure.adapt(0.1), true);
+  assert.ok(Math.abs(exposure.adapted - 8) < 1e-6);
+  // Later darkness counts: the lights have gone out.
+  exposure.meter(new Float32Array(4 * 16));
+  exposure.adapt(1000);
+  assert.ok(exposure.adapted < 0.01);
+});

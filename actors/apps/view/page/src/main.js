@@ -4,12 +4,12 @@ import { LightDisplay } from './draw/light_display.js';
 import { Picture } from './draw/picture.js';
 import { SceneBuilding } from './draw/scene_building.js';
 import { Edits } from './edit/edits.js';
-import { Selection } from './edit/selection.js';
+import { diamond, Selection } from './edit/selection.js';
 import { byId, el } from './panel/dom.js';
 import { Panels } from './panel/panels.js';
 import { sizeOf } from './panel/traced.js';
 import { toast } from './panel/toasts.js';
-import { Connection, backdropsOf, liveAddress, peopleOf } from './protocol/connection.js';
+import { Connection, backdropsOf, libraryOf, liveAddress, peopleOf } from './protocol/connection.js';
 import { Live } from './state.js';
 import { CameraWalk } from './walk/camera_walk.js';
 import { Hands } from './walk/hands.js';
@@ -42,6 +42,9 @@ class Page {
     backdropsOf(location.href)
       .then((drawings) => this.building.backdrops(drawings))
       .catch((fault) => toast(`The drawings under the plan are not shown: ${fault.message}`));
+    libraryOf(location.href)
+      .then((library) => this.panels.library.set(library))
+      .catch((fault) => toast(`Nothing can be added from the library: ${fault.message}`));
     peopleOf(location.href)
       .then((walkers) => this.walkers(walkers))
       .catch((fault) => toast(`The people who walk are not shown: ${fault.message}`));
@@ -56,14 +59,19 @@ class Page {
     return {
       say: (message, key) => edits.say(message, key),
       dim: (name, factor) => edits.dim(name, factor),
+      goTo: (done) => edits.goTo(done),
       solid: (on) => (walk.solid = on),
       smooth: (on) => light.smooth(on),
       flames: (on) => (this.picture.liveFlames = on),
       marks: (on) => building.showMarks(on),
       suggest: (answer) => building.showSuggestion(answer),
       placed: (time) => building.placePeople(time),
+      point: (place) => this.point(place),
+      addKind: (kind) => this.selection.addKind(kind),
       selection: {
         nudge: (way, metres) => this.selection.mover.nudge(way, metres),
+        place: (position) => this.selection.mover.place(position),
+        snap: (on) => (this.selection.mover.snaps = on),
         copy: () => this.selection.mover.copy(),
         remove: () => this.selection.remove(),
         close: () => this.selection.clear(),
@@ -93,6 +101,8 @@ class Page {
       drag: (x, y) => selection.drag(x, y),
       drop: () => selection.mover.send(),
       key: (code) => keys[code]?.(),
+      undo: () => this.panels.history.back(),
+      redo: () => this.panels.history.again(),
     };
   }
 
@@ -111,8 +121,10 @@ class Page {
       probe: (answer) => panels.inspect.probe(answer),
       sign: (verdicts) => panels.inspect.judged(verdicts),
       suggested: (answer) => panels.suggest.suggested(answer),
+      checks: (checks) => panels.checks.checked(checks),
       added: (copy) => (selection.awaited = copy),
       picture: (picture) => panels.traced.show(picture),
+      history: (history) => (panels.history.set(history), panels.checks.changed()),
       saved: ({ file }) => toast(`Saved as ${file}`, 'good'),
       refused: (refusal) => this.refused(refusal),
       editor: ({ editor }) => panels.edits(editor),
@@ -142,7 +154,8 @@ class Page {
     this.light.changed();
   }
 
-  refused({ why, picture, suggestion }) {
+  refused({ why, picture, suggestion, checks }) {
+    if (checks) return this.panels.checks.refused(why);
     toast(`Refused: ${why}`);
     if (picture !== null) return this.panels.traced.refused(picture);
     if (suggestion) return this.panels.suggest.refused();
@@ -151,6 +164,13 @@ class Page {
     this.panels.state.scene(scene);
     this.panels.clock.forget();
     this.selection.keep(scene);
+  }
+
+  /** Marks a place, and brings it into view. */
+  point(place) {
+    this.selection.clear();
+    this.building.outline(diamond(place, [0, 0, 1]));
+    this.walk.face(place);
   }
 
   /** A traced picture of the current view. A plan has no perspective. */
@@ -175,6 +195,7 @@ class Page {
     if (this.picture.draw(elapsed, moving)) {
       this.panels.rendition.show();
       this.panels.labels.draw(this.picture.camera, this.walk.motion);
+      this.panels.planKey.show(this.walk.motion, this.picture.size[1]);
     }
     requestAnimationFrame((then) => this.tick(then));
   }

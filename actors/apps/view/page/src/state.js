@@ -119,8 +119,8 @@ export class Live {
 
   checkLight({ kind, group, halves }, { scene, geometry }) {
     const triangles = (geometry ?? this.shown?.geometry)?.triangles ?? 0;
-    const cells = kind === kinds.surfaceLight ? triangles : scene.voxels?.total ?? 0;
-    const expected = 6 * cells;
+    const expected =
+      kind === kinds.surfaceLight ? 8 * triangles : 6 * (scene.voxels?.total ?? 0);
     demand(halves.length === expected, `light of ${halves.length} numbers, not ${expected}`);
     demand(group < scene.groups.length, `light of group ${group} of ${scene.groups.length}`);
   }

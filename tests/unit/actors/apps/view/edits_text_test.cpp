@@ -11,7 +11,8 @@ TEST_CASE("scene edits are unchanged after their way to a node", "[view]") {
   edits.smoke = 1.0 / 3;
   edits.signs["exit é"] = {{0.1, -2e-300, 3}, glm::dvec3(0, 1.0 / 7, 1)};
   edits.luminaires["lamp"] = {{1e6 + 1e-6, 0, 0}, std::nullopt};
-  edits.added = {{true, "exit é", "exit é copy"}, {false, "lamp", "lamp copy"}};
+  edits.added = {{true, "exit é", "exit é copy"}, {false, "lamp", "lamp copy"},
+                 {false, "downlight", "downlight 2", true}};
   edits.at_s = 100.0 / 3;
   const std::string text = edits_text(edits);
   const auto parsed = parse_edits(text);
@@ -24,10 +25,11 @@ TEST_CASE("scene edits are unchanged after their way to a node", "[view]") {
   CHECK(read.luminaires.at("lamp").position == edits.luminaires["lamp"].position);
   CHECK_FALSE(read.luminaires.at("lamp").facing);
   CHECK(read.at_s == edits.at_s);
-  REQUIRE(read.added.size() == 2);
+  REQUIRE(read.added.size() == 3);
   CHECK(read.added[0].is_sign);
   CHECK(read.added[1].of == "lamp");
   CHECK(read.added[1].name == "lamp copy");
+  CHECK(read.added == edits.added);
   CHECK(edits_text(read) == text);
 }
 

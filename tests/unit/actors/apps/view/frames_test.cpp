@@ -154,8 +154,15 @@ TEST_CASE("the light on surfaces ends with a white surface in it", "[view]") {
   const auto frames =
       light_frames(run, geometry->patches, smoke_of(scene, run.index(), 1), 1, {left});
   const std::vector<double> halves = halves_of(frames[0]);
-  REQUIRE(halves.size() == 6 * geometry->patches.size() + 3);
+  REQUIRE(halves.size() == 8 * geometry->patches.size() + 3);
   const Readout readout(scene, run.shown(left));
+  for (const size_t triangle : {size_t{0}, geometry->patches.size() - 1}) {
+    const LivePatch& patch = geometry->patches[triangle];
+    CHECK(halves[8 * triangle + 3] ==
+          Approx(readout.lumens(scene.blocks.patches, patch.front, 0, left).value / patch.area_m2)
+              .epsilon(1e-3)
+              .margin(1e-6));
+  }
   double lumens = 0, area_m2 = 0;
   for (const LivePatch& patch : geometry->patches)
     for (const uint32_t bin : {patch.front, patch.back}) {

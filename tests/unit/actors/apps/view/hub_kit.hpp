@@ -121,11 +121,14 @@ class Edited {
   /// The answer to a click on a sign.
   Json verdicts_on(const std::string& name) {
     says(Json({{"type", "judge"}, {"sign", name}}).dump());
-    posts.until(
-        [&] { return viewer.last("sign") != nullptr || viewer.last("refused") != nullptr; });
+    const auto sure = [&]() -> const Json* {
+      const Json* const last = viewer.last("sign");
+      return last != nullptr && (*last)["name"] == name && !(*last)["provisional"] ? last : nullptr;
+    };
+    posts.until([&] { return sure() != nullptr || viewer.last("refused") != nullptr; });
     INFO(answers());
-    REQUIRE(viewer.last("sign") != nullptr);
-    return *viewer.last("sign");
+    REQUIRE(sure() != nullptr);
+    return *sure();
   }
 
   HubOptions runs(const std::shared_ptr<FrameScenes>& judged) const {

@@ -184,7 +184,7 @@ TEST_CASE("copies are numbered, and no name is used twice", "[view]") {
   SceneDescription scene = scene_of(folder.write("room.toml", room));
   SceneEdits edits;
   const auto add = [&](const std::string& of) {
-    const std::string name = name_for_copy(scene, edits, of);
+    const std::string name = name_for_copy(scene, edits, of, false);
     edits.added.push_back({true, "exit", name});
     return name;
   };
@@ -196,6 +196,9 @@ TEST_CASE("copies are numbered, and no name is used twice", "[view]") {
   CHECK(add("door") == "door copy 2");
   CHECK(add("copy") == "copy copy");
   CHECK(add("copy that") == "copy that copy");
+  CHECK(name_for_copy(scene, edits, "downlight", true) == "downlight");
+  edits.added.push_back({false, "downlight", "downlight", true});
+  CHECK(name_for_copy(scene, edits, "downlight", true) == "downlight 2");
 }
 
 TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of the traced light",

@@ -1,7 +1,9 @@
 // Exposure of the picture. Pure: takes meter readings, returns a scale and a curve.
 import { cameraCurve } from './tone.js';
 
-export const renditions = { camera: 0, eye: 1, luminance: 2 };
+export const renditions = { camera: 0, eye: 1, luminance: 2, illuminance: 3 };
+/** Whether it is a map of values, which no exposure changes. */
+export const isMap = (rendition) => renditions[rendition] >= 2;
 
 /** Mid grey of a camera; and the smallest luminance that automatic exposure raises to it. */
 const key = 0.18;
@@ -19,9 +21,9 @@ const seconds = { camera: 0.35, eye: 1.2 };
 const eyeSeconds = { brighter: 1, darker: 120 };
 
 /**
- * What the cells of the meter say: the log-average luminance `level`; `shown`, the mean of the
- * largest luminances that a screen shows of the colours in view; `sign`, the luminance of the
- * brightest sign or steady flame, 0 without any.
+ * What the cells of the meter say: whether there is light (`lit`); the log-average luminance
+ * `level`; `shown`, the mean of the largest luminances that a screen shows of the colours in view;
+ * `sign`, the luminance of the brightest sign or steady flame, 0 without any.
  */
 export function readMeter(cells) {
   let log = 0;
@@ -34,8 +36,9 @@ export function readMeter(cells) {
     shown += cells[i + 2];
     sign = Math.max(sign, cells[i + 3]);
   }
-  if (count === 0) return { level: darkest_cd_m2, shown: 1, sign };
-  return { level: Math.max(darkest_cd_m2, 2 ** (log / count)), shown: shown / count, sign };
+  if (count === 0) return { lit: false, level: darkest_cd_m2, shown: 1, sign };
+  const level = Math.max(darkest_cd_m2, 2 ** (log / count));
+  return { lit: true, level, shown: shown / count, sign };
 }
 
 /**
@@ -61,8 +64,14 @@ export class Exposure {
     this.metered = { shown: 1, sign: 0 };
   }
 
+  /**
+   * A picture without any light, as before the first light has come, is nothing to adapt to at
+   * first: what follows would be white until exposure has come back.
+   */
   meter(cells) {
-    this.metered = readMeter(cells);
+    const metered = readMeter(cells);
+    if (this.adapted === null && !metered.lit) return;
+    this.metered = metered;
     this.target = this.metered.level;
   }
 
@@ -94,7 +103,7 @@ export class Exposure {
   }
 
   get moves() {
-    return this.automatic && this.rendition !== 'luminance';
+    return this.automatic && !isMap(this.rendition);
   }
 
   /** The luminance shown as mid grey, or to which the eye is adapted [cd/m2]. */

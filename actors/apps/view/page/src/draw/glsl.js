@@ -1,6 +1,6 @@
 // The shaders. Luminances are cd/m2 in linear sRGB until `tone` makes them bytes.
 import { scaleHigh, scaleLow } from '../light/colour_map.js';
-import { luminanceWeights } from '../light/colours.js';
+import { luminanceWeights, luxSteps } from '../light/colours.js';
 import { flameShapeTools } from './flame_shape.js';
 import { toneTools } from './tone.js';
 import { whiteTools } from './white.js';
@@ -27,27 +27,28 @@ in vec3 position;
 in uint texel;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform sampler2D light;
-out vec3 front, back;
+out vec4 front, back;
 out float height;
 void main() {
   int width = textureSize(light, 0).x;
   int at = int(2u * texel);
   ivec2 place = ivec2(at % width, at / width);
-  front = texelFetch(light, place, 0).rgb;
-  back = texelFetch(light, place + ivec2(1, 0), 0).rgb;
+  front = texelFetch(light, place, 0);
+  back = texelFetch(light, place + ivec2(1, 0), 0);
   height = position.z;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
 export const surfaceFragment = `${common}
-in vec3 front, back;
+in vec4 front, back;
 in float height;
 uniform float cut, above;
+uniform bool illuminance;
 out vec4 colour;
 void main() {
   if (height > cut || height < above) discard;
-  vec3 c = gl_FrontFacing ? front : back;
-  colour = vec4(clamp(c, 0.0, ${brightest}), 1.0);
+  vec4 c = gl_FrontFacing ? front : back;
+  colour = vec4(clamp(illuminance ? c.aaa : c.rgb, 0.0, ${brightest}), 1.0);
 }`;
 
 export const signVertex = `${common}
@@ -354,6 +355,14 @@ vec3 falseColour(float y) {
   float t = log(max(y, 1e-12) / ${scaleLow.toExponential(3)}) / log(10.0) / decades;
   return texture(scaleColours, vec2(clamp(t, 0.002, 0.998), 0.5)).rgb;
 }
+const float luxSteps[${luxSteps.length}] = float[](${luxSteps.map((e) => e.toFixed(2)).join(', ')});
+/** One colour from each step to the next, so that their edges are lines of equal illuminance. */
+vec3 luxColour(float lux) {
+  int above = 0;
+  for (int i = 0; i < luxSteps.length(); ++i) above += lux >= luxSteps[i] ? 1 : 0;
+  float t = (float(above) + 0.5) / float(luxSteps.length() + 1);
+  return texture(scaleColours, vec2(t, 0.5)).rgb;
+}
 float grain(vec2 p) {
   return fract(52.9829189 * fract(dot(p + seed, vec2(0.06711056, 0.00583715)))) - 0.5;
 }
@@ -361,6 +370,7 @@ void main() {
   vec3 c = max(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 0.0);
   vec3 shown;
   if (mode == 2) shown = falseColour(luminance(c));
+  else if (mode == 3) shown = luxColour(c.g);
   else {
     vec3 balanced = onMonitor(c);
     c = mode == 1 ? eyeSees(c, balanced) : balanced;
@@ -378,19 +388,25 @@ in float kind;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform float size;
 out vec3 ink;
-out float shape;
+out float shape, nearDepth;
+// What is mounted on a wall or recessed in a ceiling is not behind it.
+const float mounted_m = 0.3;
 void main() {
   ink = tint;
   shape = kind;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec4 place = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * place;
+  float far = length(place.xyz);
+  place.xyz *= max(far - mounted_m, 0.1 * far) / max(far, 1e-6);
+  vec4 nearer = projectionMatrix * place;
+  nearDepth = 0.5 + 0.5 * nearer.z / nearer.w;
   gl_PointSize = size * (kind > 2.5 ? 1.8 : 1.0);
 }`;
 
-// Rings for luminaires, drops for flames, squares for signs, a disc for the walker; marks behind a
-// wall are faint.
+// Rings for luminaires, drops for flames, squares for signs, a disc for the walker; walls hide marks.
 export const markFragment = `${common}
 in vec3 ink;
-in float shape;
+in float shape, nearDepth;
 uniform sampler2D depth;
 uniform vec2 raster;
 uniform bool plan;
@@ -404,8 +420,8 @@ void main() {
              : r - 0.5;
   float cover = 1.0 - smoothstep(-0.06, 0.1, edge);
   float wall = texture(depth, gl_FragCoord.xy / raster).r;
-  bool hidden = !plan && gl_FragCoord.z > wall + 1e-5;
-  colour = vec4(ink, cover * (hidden ? 0.16 : 0.9));
+  if (!plan && nearDepth > wall + 1e-5) discard;
+  colour = vec4(ink, cover * 0.9);
   if (colour.a < 0.01) discard;
 }`;
 

@@ -3,6 +3,7 @@
 // metered nor exposed.
 import * as THREE from 'three';
 import { Backdrops } from './backdrops.js';
+import { emphasisBelow, escapeLines } from './escape_lines.js';
 import { lineFragment, lineVertex, markFragment, markVertex } from './glsl.js';
 
 const shapes = { luminaire: 0, flame: 1, sign: 2, walker: 3 };
@@ -13,6 +14,7 @@ const inks = {
   observer: [0.6, 0.75, 1],
   walker: [0.45, 0.7, 1],
   suggested: [0.4, 1, 0.95],
+  emphasis: [1, 0.55, 0.9],
 };
 
 /** Places where a luminaire would help: from blue for little to red for most. */
@@ -59,14 +61,23 @@ export class Marks {
     this.points.frustumCulled = false;
     this.walls = lines([0.75, 0.8, 0.88, 0.9]);
     this.outline = lines([1, 0.85, 0.35, 1]);
+    /** Shown in plan. */
+    this.escape = { lines: lines([0.35, 0.9, 0.55, 0.95]), edges: lines([0.35, 0.9, 0.55, 0.35]),
+      areas: lines([0.55, 0.75, 1, 0.6]) };
+    this.escapeGroup = new THREE.Group();
+    this.escapeGroup.add(...Object.values(this.escape));
     this.backdrops = new Backdrops();
-    this.scene.add(this.backdrops.group, this.points, this.walls, this.outline);
+    this.scene.add(this.backdrops.group, this.escapeGroup, this.points, this.walls, this.outline);
     this.wanted = true;
     this.suggestion = null;
   }
 
   /** Marks of a scene: fixed places, and with `plan` also those shown only from above. */
-  place(scene, plan, walker) {
+  place(scene, plan, walker, cut) {
+    this.escapeGroup.visible = plan && this.wanted;
+    if (this.escapeGroup.visible)
+      for (const [kind, positions] of Object.entries(escapeLines(scene, cut)))
+        setLines(this.escape[kind], new Float32Array(positions));
     const marks = [];
     const put = (kind, position, ink = kind) => marks.push({ kind, position, ink });
     const on = this.wanted;
@@ -76,6 +87,8 @@ export class Marks {
     for (const l of this.suggestion?.luminaires ?? []) put('sign', l.position, 'suggested');
     if (on) for (const l of scene.luminaires) put('luminaire', l.position);
     if (on) for (const g of scene.groups) if (g.kind === 'flame') put('flame', g.position);
+    if (on && plan)
+      for (const e of emphasisBelow(scene, cut)) put('sign', e.position, 'emphasis');
     if (on && plan) for (const s of scene.signs) put('sign', s.position);
     if (on && plan) for (const o of scene.observers) put('flame', o.eye, 'observer');
     if (plan) put('walker', walker);

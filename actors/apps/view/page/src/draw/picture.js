@@ -76,6 +76,8 @@ export class Picture {
     /** Whether flames are to move, and whether the last picture that was metered shows any. */
     this.liveFlames = true;
     this.seesFlames = false;
+    /** Whether the picture is one of surfaces' illuminance, without all that shines. */
+    this.surfacesAlone = false;
     this.added = 0;
     this.makeTargets();
     this.makePasses();
@@ -217,7 +219,7 @@ export class Picture {
    * draw finely.
    */
   flamesMove() {
-    return this.liveFlames && this.seesFlames && this.shares.moving > slowMachine;
+    return this.liveFlames && !this.surfacesAlone && this.seesFlames && this.shares.moving > slowMachine;
   }
 
   /** Lets flames go on by this many seconds. */
@@ -272,22 +274,37 @@ export class Picture {
     slow.ms = slow.samples = 0;
   }
 
+  /** Illuminance is that of surfaces alone: nothing that shines, reflects or scatters is drawn. */
+  setRendition(rendition) {
+    const alone = rendition === 'illuminance';
+    if (alone === this.surfacesAlone) return;
+    this.surfacesAlone = alone;
+    this.surfaces.material.uniforms.illuminance.value = alone;
+    this.again();
+  }
+
   addPicture(moving) {
     const n = this.added++;
     const shift = [0.5 - radicalInverse(n + 1, 2), 0.5 - radicalInverse(n + 1, 3)];
     const { width, height, camera, targets } = this;
     camera.setViewOffset(width, height, n ? shift[0] : 0, n ? shift[1] : 0, width, height);
     this.drawSurfaces(camera, targets.surfaces);
-    if (this.gloss.draw(this, camera, n, moving)) this.aim(camera);
-    this.drawShining(camera, targets.surfaces);
-    this.drawSmoke(targets.smoke, this.smokePace(moving), n);
+    if (!this.surfacesAlone) this.drawLights(camera, n, moving);
     const uniforms = this.compose.uniforms;
-    uniforms.smoky.value = this.smoke.present;
+    uniforms.smoky.value = this.smoke.present && !this.surfacesAlone;
     uniforms.before.value = targets.sums[1].texture;
     uniforms.weight.value = 1 / (n + 1);
     this.pass(this.compose, targets.sums[0]);
     targets.sums.reverse();
-    if (n === 0 || n === pictures.least - 1) this.meter();
+    if (!this.surfacesAlone && (n === 0 || n === pictures.least - 1)) this.meter();
+  }
+
+  /** Adds to surfaces what they mirror, and what shines; then smoke. */
+  drawLights(camera, n, moving) {
+    const { targets } = this;
+    if (this.gloss.draw(this, camera, n, moving)) this.aim(camera);
+    this.drawShining(camera, targets.surfaces);
+    this.drawSmoke(targets.smoke, this.smokePace(moving), n);
   }
 
   /** Screen passes use the camera that has drawn their input. */
@@ -302,7 +319,11 @@ export class Picture {
     this.aim(camera);
     this.renderer.setRenderTarget(to);
     this.renderer.clear();
+    const { mesh } = this.people;
+    const people = mesh.visible;
+    mesh.visible &&= !this.surfacesAlone;
     this.renderer.render(this.world, camera);
+    mesh.visible = people;
   }
 
   /** Adds reflections of glossy floors, and the faces of signs and lamps, to surfaces. */

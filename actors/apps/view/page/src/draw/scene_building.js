@@ -47,7 +47,8 @@ export class SceneBuilding {
 
   placeMarks() {
     if (!this.live.scene) return;
-    this.picture.marks.place(this.live.scene, this.walk.inPlan, this.walk.motion.eye);
+    const { inPlan, motion } = this.walk;
+    this.picture.marks.place(this.live.scene, inPlan, motion.eye, motion.plan.cut);
     this.picture.untoned = true;
   }
 

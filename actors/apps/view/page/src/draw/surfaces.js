@@ -23,7 +23,7 @@ export class Surfaces {
       vertexShader: surfaceVertex,
       fragmentShader: surfaceFragment,
       side: THREE.DoubleSide,
-      uniforms: { light: { value: lightTexture(1) }, cut, above },
+      uniforms: { light: { value: lightTexture(1) }, illuminance: { value: false }, cut, above },
     });
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;

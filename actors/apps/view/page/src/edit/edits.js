@@ -24,4 +24,10 @@ export class Edits {
     this.light.settleLater();
     this.say({ type: 'factor', group: name, factor }, `factor ${name}`);
   }
+
+  /** Undoes or redoes steps; factors that come back are no echoes. */
+  goTo(done) {
+    this.heldUntil.clear();
+    this.say({ type: 'history', done }, 'history');
+  }
 }

@@ -1,5 +1,6 @@
 // Moves a sign or a luminaire: an outline follows the pointer; the program is told on release.
 import { faceOf } from '../draw/signs.js';
+import { axesOf, snapped } from './snap.js';
 import { add, cross, dot, scale, subtract, unit } from '../walk/vectors.js';
 
 /** Delay after the last press of a handle [ms]. */
@@ -10,9 +11,13 @@ const beside_m = 0.5;
 const gap_m = 0.05;
 
 export class Mover {
-  /** `say(message, key)` to the program; `outline(corners)`; `moved(position)` for the panel. */
-  constructor({ say, outline, moved }) {
-    Object.assign(this, { say, outline, moved });
+  /**
+   * `say(message, key)` to the program; `outline(corners)`; `moved(position)` for the panel;
+   * `yaw()` of the view, 90 degrees in plan; `others(kind)`: places of the other things.
+   */
+  constructor({ say, outline, moved, yaw, others }) {
+    Object.assign(this, { say, outline, moved, yaw, others });
+    this.snaps = true;
     this.release();
   }
 
@@ -30,10 +35,16 @@ export class Mover {
     this.outline([]);
   }
 
-  /** Right, up and out of the wall; for a luminaire, the building's axes. */
+  /**
+   * Right, up and out of the wall; for a luminaire the building's axes that are nearest to the
+   * view's right and depth, and down.
+   */
   get axes() {
     const { facing, up } = this.thing;
-    if (!facing) return { right: [1, 0, 0], up: [0, 1, 0], out: [0, 0, -1] };
+    if (!facing) {
+      const { ahead, right } = axesOf(this.yaw());
+      return { right, up: ahead, out: [0, 0, -1] };
+    }
     const out = unit(facing);
     const right = unit(cross(up, out), [1, 0, 0]);
     return { right, up: cross(out, right), out };
@@ -45,8 +56,19 @@ export class Mover {
     const by = { left: scale(right, -1), right, up, down: scale(up, -1), ahead: out,
       back: scale(out, -1) }[way];
     this.to(add(this.thing.position, scale(by, metres)));
+    this.sendSoon();
+  }
+
+  sendSoon() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.send(), patience);
+  }
+
+  /** A place that was typed. */
+  place(position) {
+    if (!this.thing || !position.every(Number.isFinite)) return;
+    this.to(position);
+    this.send();
   }
 
   /** Starts dragging along a ray; `plan`: in the horizontal plane instead of the wall's. */
@@ -66,7 +88,15 @@ export class Mover {
 
   drag(origin, direction) {
     const point = this.onPlane(origin, direction);
-    if (point) this.to(add(point, this.grip));
+    if (!point) return;
+    const position = add(point, this.grip);
+    this.to(this.snaps ? snapped(position, this.others(this.kind, this.thing.name), this.slides)
+      : position);
+  }
+
+  /** Coordinates along which a drag moves: not the one that the plane's normal follows. */
+  get slides() {
+    return this.normal.map((n) => Math.abs(n) < 0.999);
   }
 
   to(position) {

@@ -3,13 +3,14 @@
 import { byId } from '../panel/dom.js';
 import { add, cross, scale, unit } from '../walk/vectors.js';
 import { Mover } from './mover.js';
+import { placeOf } from './placing.js';
 
 const markReach_px = 14;
 const probe_m = 0.05;
 const farthest_m = 1e3;
 
 /** A small mark on a surface. */
-function diamond(point, normal) {
+export function diamond(point, normal) {
   const side = unit(cross(normal, Math.abs(normal[2]) > 0.9 ? [1, 0, 0] : [0, 0, 1]));
   const other = cross(normal, side);
   return [side, other, scale(side, -1), scale(other, -1)].map((v) => add(point, scale(v, probe_m)));
@@ -27,6 +28,9 @@ export class Selection {
       say: this.say,
       outline: (corners) => building.outline(corners),
       moved: (position) => this.inspect.moved(position),
+      yaw: () => (walk.inPlan ? Math.PI / 2 : walk.yaw),
+      others: (kind, name) => live.scene[kind === 'sign' ? 'signs' : 'luminaires']
+        .filter((thing) => thing.name !== name).map(({ position }) => position),
     });
   }
 
@@ -39,7 +43,7 @@ export class Selection {
     const luminaire = sign ? null : this.luminaireAt(x, y);
     if (sign) this.sign(sign);
     else if (luminaire) this.luminaire(luminaire);
-    else if (hit) this.probe(hit, this.picture.luminanceAt(x, y));
+    else if (hit) this.probe(hit, this.picture.surfacesAlone ? null : this.picture.luminanceAt(x, y));
     else this.clear();
   }
 
@@ -90,6 +94,17 @@ export class Selection {
 
   reveal() {
     this.inspect.element.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Adds one of a kind of the library, where the viewer looks. */
+  addKind({ kind, of, ofType }) {
+    const { walk } = this;
+    if (!walk.building) return;
+    const { eye, plan } = walk.motion;
+    const { position, facing } = placeOf(kind, walk.building, { eye, ray: walk.ray(0, 0),
+      inPlan: walk.inPlan, centre: [...plan.centre, plan.cut] });
+    this.say({ type: 'add', kind, of, position: position.map((x) => Number(x.toFixed(3))),
+      ...(facing && { facing }), ...(ofType && { of_type: true }) });
   }
 
   remove() {

@@ -3,13 +3,13 @@
 // when it is dimmed to nothing, the sum is recomputed once the sliders are still.
 import { halfValues } from '../protocol/half.js';
 
-/** `triples` of numbers in each cell; the sum adds a fourth number each, for textures. */
+/** Each cell has some texels of three or four numbers; the sum has four, as textures need. */
 export class LightSum {
-  constructor(cells, triples) {
-    this.cells = cells;
+  constructor(cells, texels, numbers = 3) {
+    Object.assign(this, { cells, numbers });
     /** The required length of a group's light. */
-    this.length = 3 * triples * cells;
-    this.sum = new Float32Array(4 * triples * cells);
+    this.length = numbers * texels * cells;
+    this.sum = new Float32Array(4 * texels * cells);
     this.groups = new Map();
     this.stained(false);
   }
@@ -55,28 +55,31 @@ export class LightSum {
 
   add(halves, weight, sum = this.sum) {
     if (weight === 0) return;
-    for (let from = 0, to = 0; from < halves.length; from += 3, to += 4) {
+    const { numbers } = this;
+    for (let from = 0, to = 0; from < halves.length; from += numbers, to += 4) {
       sum[to] += weight * halfValues[halves[from]];
       sum[to + 1] += weight * halfValues[halves[from + 1]];
       sum[to + 2] += weight * halfValues[halves[from + 2]];
+      if (numbers === 4) sum[to + 3] += weight * halfValues[halves[from + 3]];
     }
   }
 
   exchange({ halves: before, factor: weightBefore }, halves, weight) {
-    const { sum } = this;
+    const { sum, numbers } = this;
     const change = (from) =>
       weight * halfValues[halves[from]] - weightBefore * halfValues[before[from]];
-    for (let from = 0, to = 0; from < halves.length; from += 3, to += 4) {
+    for (let from = 0, to = 0; from < halves.length; from += numbers, to += 4) {
       sum[to] += change(from);
       sum[to + 1] += change(from + 1);
       sum[to + 2] += change(from + 2);
+      if (numbers === 4) sum[to + 3] += change(from + 3);
     }
     this.stained(true);
   }
 }
 
-/** A triangle: front r g b and a fourth, back r g b and a fourth: two texels of a texture. */
-export const surfaceSum = (triangles) => new LightSum(triangles, 2);
+/** A triangle: r g b and illuminance of the front, then of the back: two texels of a texture. */
+export const surfaceSum = (triangles) => new LightSum(triangles, 2, 4);
 
 /** A voxel: r g b and a fourth; then x y z, along the light that it scatters, and a fourth. */
 export const smokeSum = (voxels) => new LightSum(voxels, 2);

@@ -92,11 +92,6 @@ export function smooth(sum, { pointOf, area, points, weight }, out) {
     const share = area[t] * weight[pointOf[i]];
     const from = 8 * t;
     const to = 8 * pointOf[i];
-    out[to] += share * sum[from];
-    out[to + 1] += share * sum[from + 1];
-    out[to + 2] += share * sum[from + 2];
-    out[to + 4] += share * sum[from + 4];
-    out[to + 5] += share * sum[from + 5];
-    out[to + 6] += share * sum[from + 6];
+    for (let k = 0; k < 8; ++k) out[to + k] += share * sum[from + k];
   }
 }

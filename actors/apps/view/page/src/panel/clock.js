@@ -32,10 +32,14 @@ export class Clock {
     this.speed = el('select', { aria: { label: 'Speed of the clock' } },
       ...speeds.map((speed) => new Option(`× ${speed}`, speed, speed === 1, speed === 1)));
     this.words = el('p', { className: 'note' });
+    this.failure = button('', () => this.jumpTo(this.states.mainsFailAt), { hidden: true,
+      title: 'Go to the failure of the mains' });
+    this.ticks = el('datalist', { id: 'clock-ticks' });
+    this.slider.setAttribute('list', this.ticks.id);
     this.controls = el('fieldset', {},
       el('div', { className: 'line' },
         el('label', { htmlFor: 'clock', textContent: 'Time' }), this.slider, this.value),
-      el('div', { className: 'line' }, this.play, this.speed));
+      this.ticks, el('div', { className: 'line' }, this.play, this.speed, this.failure));
     this.element = section('Clock', this.controls, this.words);
     this.element.hidden = true;
   }
@@ -67,7 +71,22 @@ export class Clock {
     const step = this.presence ? peopleStep_s : this.states.step;
     // A slider reaches whole steps only: its last one may lie beyond the end.
     Object.assign(this.slider, { min: from, max: from + step * stepsIn(to - from, step), step });
+    this.layTicks(from, to);
     this.go(this.time ?? this.light ?? from);
+  }
+
+  /** The failure of the mains as a tick of the slider, and as a button that leads there. */
+  layTicks(from, to) {
+    const at = this.states?.mainsFailAt ?? null;
+    const within = at !== null && at >= from && at <= to;
+    this.failure.hidden = !within;
+    this.ticks.replaceChildren(...(within ? [new Option('mains fail', at)] : []));
+    if (within) this.failure.textContent = `Mains fail ${secondsWords(at)}`;
+  }
+
+  jumpTo(time) {
+    this.go(Math.min(this.span.to, Math.max(this.span.from, time)));
+    this.askState(true);
   }
 
   go(time) {

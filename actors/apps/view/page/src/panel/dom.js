@@ -15,6 +15,16 @@ export const byId = (id) => document.getElementById(id);
 export const button = (label, click, properties = {}) =>
   el('button', { type: 'button', textContent: label, on: { click }, ...properties });
 
+const tail = 9;
+
+/** A name that is cut in its middle where it is too long: its end often tells it from others. */
+export function middle(name) {
+  const cut = name.length > 2 * tail ? name.length - tail : name.length;
+  const parts = [name.slice(0, cut), name.slice(cut)].filter(Boolean);
+  return el('span', { className: 'middle', title: name },
+    ...parts.map((textContent) => el('span', { textContent })));
+}
+
 export const section = (title, ...children) =>
   el('section', {}, el('h2', { textContent: title }), ...children);
 

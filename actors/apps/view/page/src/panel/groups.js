@@ -1,5 +1,5 @@
 // Light sources and their dimming: a switch and a slider for each group.
-import { button, el, section } from './dom.js';
+import { button, el, middle, section } from './dom.js';
 
 const titles = { luminaire: 'Luminaires', sign: 'Signs', flame: 'Flames' };
 const most = 2;
@@ -20,7 +20,7 @@ class Row {
       on: { input: () => set(Number(this.slider.value)) },
     });
     this.value = el('output');
-    const label = el('label', { htmlFor: `group-${index}`, textContent: name, title: name });
+    const label = el('label', { htmlFor: `group-${index}` }, middle(name));
     this.element = el('li', { data: { name } }, this.toggle, label, this.slider, this.value);
     this.show(factor);
   }

@@ -3,8 +3,13 @@
 import { words, wordsWithError } from '../light/colours.js';
 import { button, el, section } from './dom.js';
 
-const arrows = [['←', 'left', 'Left'], ['→', 'right', 'Right'], ['↑', 'up', 'Up'],
-  ['↓', 'down', 'Down'], ['⇤', 'back', 'Towards the wall'], ['⇥', 'ahead', 'Off the wall']];
+/** Ways of the mover: signs slide along their wall, luminaires move as the view looks. */
+const arrows = {
+  sign: [['←', 'left', 'Left'], ['→', 'right', 'Right'], ['↑', 'up', 'Up'], ['↓', 'down', 'Down'],
+    ['⇤', 'back', 'Towards the wall'], ['⇥', 'ahead', 'Off the wall']],
+  luminaire: [['←', 'left', 'Left'], ['→', 'right', 'Right'], ['↑', 'up', 'Farther away'],
+    ['↓', 'down', 'Nearer'], ['⤒', 'back', 'Up'], ['⤓', 'ahead', 'Down']],
+};
 
 const tones = [[/^legible/, 'good'], [/^visible/, 'fair'], [/^(invisible|hidden)/, 'bad']];
 const toneOf = (verdict) => tones.find(([pattern]) => pattern.test(verdict))?.[1] ?? 'open';
@@ -14,8 +19,17 @@ const figures = (pairs) => el('dl', {}, ...pairs.flatMap(([term, value]) =>
 
 const placeWords = (p) => `${p.map((x) => x.toFixed(2)).join(', ')} m`;
 
+/** Where on the way, and at which height, the eye is; observers say it by their place. */
+function standingOf({ along, eyeHeight }) {
+  const parts = [along > 0 && `${along.toFixed(1)} m along`,
+    eyeHeight !== null && `eye at ${eyeHeight.toFixed(2)} m`].filter(Boolean);
+  return parts.length ? el('small', { textContent: parts.join(', ') }) : null;
+}
+
 export class Inspect {
-  constructor({ nudge, copy, remove, close }) {
+  constructor({ nudge, place, snap, copy, remove, close }) {
+    Object.assign(this, { moveTo: place, snap });
+    this.snaps = true;
     this.nudge = nudge;
     this.copy = copy;
     this.remove = remove;
@@ -31,10 +45,13 @@ export class Inspect {
       'Click a surface for its light, a sign for its verdicts, a luminaire to move it.' }));
   }
 
-  /** A surface: first what the picture knows, then the program's answer. */
+  /**
+   * A surface: first what the picture knows, then the program's answer. `seen`: its luminance, null
+   * if the picture shows something else.
+   */
   surface({ id, point, seen }) {
     this.subject = { kind: 'surface', id };
-    this.seen = ['Arrives at the eye', `${words(seen)} cd/m²`];
+    this.seen = ['Arrives at the eye', seen === null ? '–' : `${words(seen)} cd/m²`];
     this.at = ['Place', placeWords(point)];
     this.put('Surface', figures([this.seen, this.at]),
       el('p', { className: 'note', textContent: 'Asking the program …' }));
@@ -51,50 +68,78 @@ export class Inspect {
   }
 
   sign(sign) {
-    this.subject = { kind: 'sign', name: sign.name };
-    this.verdicts = el('div', {},
+    if (this.holds('sign', sign)) return this.verdicts.setAttribute('aria-busy', 'true');
+    this.verdicts = el('div', { className: 'verdicts' },
       el('p', { className: 'note', textContent: 'Asking for verdicts …' }));
-    this.place = el('p', { className: 'note', textContent: placeWords(sign.position) });
-    this.put(sign.name, this.handles(sign), this.place, this.verdicts);
+    this.put(sign.name, this.handles(sign), this.verdicts);
   }
 
-  judged({ name, rows, note }) {
+  /** Takes another subject, or the present one at another place: then its handles stay in use. */
+  holds(kind, { name, position }) {
+    const same = this.subject?.kind === kind && this.subject.name === name;
+    this.subject = { kind, name };
+    if (same) this.moved(position);
+    return same;
+  }
+
+  judged({ name, rows, note, provisional }) {
     if (this.subject?.kind !== 'sign' || this.subject.name !== name) return;
+    this.verdicts.removeAttribute('aria-busy');
     const head = el('tr', {}, ...['From', 'Distance', 'Verdict'].map((t) =>
       el('th', { textContent: t, scope: 'col' })));
     const body = rows.map((row) => el('tr', {},
-      el('td', { textContent: row.from }),
+      el('td', { textContent: row.from }, standingOf(row)),
       el('td', { textContent: `${row.distance.toFixed(1)} m` }),
       el('td', { className: toneOf(row.verdict) },
         el('b', { textContent: row.verdict }), el('small', { textContent: row.reason }))));
     const table = el('table', {}, el('thead', {}, head), el('tbody', {}, ...body));
-    this.verdicts.replaceChildren(el('p', { className: 'note', textContent: note }),
+    const state = provisional ? `Provisional, while more paths are traced. ${note}` : note;
+    this.verdicts.replaceChildren(el('p', { className: 'note', textContent: state }),
       rows.length ? table
         : el('p', { className: 'note', textContent: 'No observers: nothing to judge from.' }));
   }
 
   luminaire(luminaire) {
-    this.subject = { kind: 'luminaire', name: luminaire.name };
-    this.place = el('p', { className: 'note', textContent: placeWords(luminaire.position) });
-    this.put(luminaire.name, this.handles(luminaire), this.place);
+    if (this.holds('luminaire', luminaire)) return;
+    this.put(luminaire.name, this.handles(luminaire));
   }
 
   /** Things of the scene file stay; those added here may be removed. */
-  handles({ added }) {
+  handles({ added, position }) {
     const step = el('select', { aria: { label: 'Step' } });
     for (const metres of [0.05, 0.25, 1]) step.append(new Option(`${metres} m`, metres));
     step.value = 0.25;
-    const keys = arrows.map(([label, way, title]) =>
+    const keys = arrows[this.subject.kind].map(([label, way, title]) =>
       button(label, () => this.nudge(way, Number(step.value)), { title, aria: { label: title } }));
     const more = el('div', { className: 'both' }, button('Add a copy', this.copy),
       added ? button('Remove', this.remove) : null);
     this.moveControls = el('fieldset', { className: 'handles', disabled: !this.editor },
-      el('legend', { textContent: 'Move' }), ...keys, step, more);
+      el('legend', { textContent: 'Move' }), ...keys, step, this.makePlace(), more);
+    this.moved(position);
     return this.moveControls;
   }
 
+  /** Coordinates to read and to type, and whether drags come to rest in line with others. */
+  makePlace() {
+    const typed = () => this.moveTo(this.coordinates.map((input) => input.valueAsNumber));
+    this.coordinates = ['x', 'y', 'z'].map((axis) => el('input', {
+      type: 'number', step: 0.05, title: `${axis} [m]`, aria: { label: `${axis} in metres` },
+      on: { change: typed },
+    }));
+    const snap = el('input', {
+      type: 'checkbox', checked: this.snaps,
+      on: { change: () => this.snap(this.snaps = snap.checked) },
+    });
+    const box = el('label', { className: 'check',
+      title: 'A drag comes to rest in line with other things, else on a grid of 5 cm' },
+    snap, ' snap');
+    return el('div', { className: 'place' }, ...this.coordinates, box);
+  }
+
   moved(position) {
-    if (this.place) this.place.textContent = placeWords(position);
+    this.coordinates?.forEach((input, k) => {
+      if (input !== document.activeElement) input.value = position[k].toFixed(3);
+    });
   }
 
   put(title, ...children) {

@@ -1,9 +1,13 @@
 // All panels around the picture: makes them, and passes on what all need.
+import { Checks } from './checks.js';
 import { Clock } from './clock.js';
 import { byId } from './dom.js';
 import { Groups } from './groups.js';
+import { History } from './history.js';
 import { Inspect } from './inspect.js';
 import { Labels } from './labels.js';
+import { Library } from './library.js';
+import { PlanKey } from './plan_key.js';
 import { Rendition } from './rendition.js';
 import { StatePanel } from './state_panel.js';
 import { Suggest } from './suggest.js';
@@ -18,8 +22,14 @@ export class Panels {
     this.state = new StatePanel({ say: wants.say });
     this.clock = new Clock({ say: wants.say, placed: wants.placed });
     this.groups = new Groups({ dim: wants.dim });
+    this.checks = new Checks({ say: wants.say, show: wants.point });
+    this.library = new Library({ add: wants.addKind });
+    this.history = new History({ goTo: wants.goTo });
     this.suggest = new Suggest({ say: wants.say, show: wants.suggest });
-    this.rendition = new Rendition(picture.exposure, () => (picture.untoned = true));
+    this.rendition = new Rendition(picture.exposure, (rendition) => {
+      if (rendition) picture.setRendition(rendition);
+      picture.untoned = true;
+    });
     this.rendition.check('collide with walls', true, wants.solid);
     this.rendition.check('smooth light', true, wants.smooth);
     this.rendition.check('moving flames', picture.liveFlames, wants.flames,
@@ -29,14 +39,16 @@ export class Panels {
     this.views = new Views(wants.views);
     this.traced = new Traced(wants.say);
     this.labels = new Labels(byId('labels'));
+    this.planKey = new PlanKey();
     byId('panel').append(this.inspect.element, this.state.element, this.clock.element,
-      this.groups.element, this.suggest.element, this.rendition.element, this.state.saveElement);
+      this.groups.element, this.library.element, this.checks.element, this.suggest.element, this.rendition.element, this.history.element,
+      this.state.saveElement);
     this.edits(false);
   }
 
   scene(scene) {
     for (const part of [this.top, this.state, this.clock, this.groups, this.suggest, this.views,
-      this.labels])
+      this.labels, this.planKey])
       part.scene(scene);
     this.edits(scene.editor);
   }
@@ -44,7 +56,8 @@ export class Panels {
   /** Whether this viewer may change the building. */
   edits(editor) {
     this.editor = editor;
-    for (const part of [this.top, this.state, this.clock, this.groups, this.suggest, this.inspect])
+    for (const part of [this.top, this.state, this.clock, this.groups, this.library, this.history,
+      this.suggest, this.inspect])
       part.edits(editor);
   }
 }

@@ -1,6 +1,7 @@
 // How luminances become a picture, and the legend for it.
 import { scaleHigh, scaleLow } from '../light/colour_map.js';
-import { scaleColour, words } from '../light/colours.js';
+import { luxSteps, scaleColour, words } from '../light/colours.js';
+import { isMap } from '../draw/exposure.js';
 import { byId, choice, el, section } from './dom.js';
 
 const explained = {
@@ -8,8 +9,11 @@ const explained = {
   eye: 'A simple dark-adapted eye: mesopic luminance (CIE 191, scotopic part estimated from ' +
     'colour), brightness by Ward 1994 on a 250 cd/m² screen. No glare veil, no loss of acuity.',
   luminance: 'False colours of luminance as it arrives at the eye.',
+  illuminance: 'Illuminance of surfaces; their other lights, signs and smoke are not drawn. Where ' +
+    'colours meet, it has the value of the key.',
 };
-const modes = [['camera', 'Camera'], ['eye', 'Eye'], ['luminance', 'Luminance']];
+const modes = [['camera', 'Camera'], ['eye', 'Eye'], ['luminance', 'Luminance'],
+  ['illuminance', 'Lux']];
 
 export class Rendition {
   constructor(exposure, changed) {
@@ -39,7 +43,6 @@ export class Rendition {
     this.extras = el('div', { className: 'checks' });
     this.element = section(
       'Picture', this.choice.element, this.note, this.exposureLine, this.extras);
-    buildLegend();
     this.set(exposure.rendition);
   }
 
@@ -55,10 +58,11 @@ export class Rendition {
     this.exposure.rendition = mode;
     this.choice.press(mode);
     this.note.textContent = explained[mode];
-    this.exposureLine.hidden = mode === 'luminance';
-    byId('legend').hidden = mode !== 'luminance';
+    this.exposureLine.hidden = isMap(mode);
+    byId('legend').hidden = !isMap(mode);
+    if (isMap(mode)) byId('legend').replaceChildren(...legends[mode]());
     this.show();
-    this.changed();
+    this.changed(mode);
   }
 
   next() {
@@ -88,16 +92,34 @@ export class Rendition {
   }
 }
 
-function buildLegend() {
-  const decades = Math.round(Math.log10(scaleHigh / scaleLow));
-  const colours = el('canvas', { width: 256, height: 1, className: 'scale' });
-  const context = colours.getContext('2d');
-  for (let i = 0; i < 256; ++i) {
-    context.fillStyle = `rgb(${scaleColour(i / 255).join(' ')})`;
+/** A bar of colours, each at `t` from 0 to 1 along the scale. */
+function colourBar(places) {
+  const bar = el('canvas', { width: places.length, height: 1, className: 'scale' });
+  const context = bar.getContext('2d');
+  places.forEach((t, i) => {
+    context.fillStyle = `rgb(${scaleColour(t).join(' ')})`;
     context.fillRect(i, 0, 1, 1);
-  }
-  const ticks = el('div', { className: 'ticks' });
-  for (let d = 0; d <= decades; ++d)
-    ticks.append(el('span', { textContent: words(scaleLow * 10 ** d, 1) }));
-  byId('legend').append(el('p', { textContent: 'Luminance [cd/m²]' }), colours, ticks);
+  });
+  return bar;
 }
+
+const tickBar = (...labels) =>
+  el('div', { className: 'ticks' }, ...labels.map((textContent) => el('span', { textContent })));
+
+const legends = {
+  luminance: () => {
+    const decades = Math.round(Math.log10(scaleHigh / scaleLow));
+    const labels = Array.from({ length: decades + 1 }, (_, d) => words(scaleLow * 10 ** d, 1));
+    return [el('p', { textContent: 'Luminance [cd/m²]' }),
+      colourBar(Array.from({ length: 256 }, (_, i) => i / 255)), tickBar(...labels)];
+  },
+  // A colour from each step to the next; steps of 2 have no room for their numbers.
+  illuminance: () => {
+    const bands = luxSteps.length + 1;
+    const short = (step) => (step < 1000 ? words(step, 1) : `${step / 1000}k`);
+    const labels = luxSteps.map((step) => (String(step).includes('2') ? '' : short(step)));
+    return [el('p', { textContent: 'Illuminance [lx]' }),
+      colourBar(Array.from({ length: bands }, (_, i) => (i + 0.5) / bands)),
+      tickBar('', ...labels, '')];
+  },
+};

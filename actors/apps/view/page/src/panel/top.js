@@ -11,6 +11,15 @@ export class Top {
     this.editButton.addEventListener('click', () => edit(!this.editor));
     byId('fold').addEventListener('click', () => this.fold());
     if (matchMedia('(max-width: 760px)').matches) this.fold();
+    // What stands beside the buttons of both edges keeps off them, however many lines they take.
+    const [top, views] = [byId('top'), byId('views')];
+    const set = (name, pixels) => document.body.style.setProperty(name, `${pixels}px`);
+    const edges = new ResizeObserver(() => {
+      set('--under-top', top.offsetTop + top.offsetHeight + 6);
+      set('--over-views', Math.max(64, views.offsetHeight + 16));
+    });
+    edges.observe(top);
+    edges.observe(views);
     this.bar = el('div', { className: 'bar' }, el('span'));
     this.figures = el('p', { textContent: 'Waiting for the first light …' });
     byId('progress').append(this.bar, this.figures);

@@ -2,6 +2,7 @@
 import { decodeBackdrops } from './decode_backdrops.js';
 import { decodeFrame, ProtocolError } from './decode_frame.js';
 import { decodeMessage } from './decode_message.js';
+import { decodeLibrary } from './decode_library.js';
 import { decodePeople } from './decode_people.js';
 import { Outbox } from './outbox.js';
 
@@ -36,6 +37,10 @@ async function fixed(page, name, ask) {
 /** The drawings under plans. */
 export const backdropsOf = async (page, ask = fetch) =>
   decodeBackdrops(await fixed(page, 'backdrops.json', ask));
+
+/** What may be added. */
+export const libraryOf = async (page, ask = fetch) =>
+  decodeLibrary(await fixed(page, 'library.json', ask));
 
 /** The people who walk. */
 export const peopleOf = async (page, ask = fetch) =>

@@ -53,6 +53,14 @@ function triple(value, path, low, high) {
   return value.map((item) => number(item, path, low, high));
 }
 
+function corner(value, path) {
+  if (!Array.isArray(value) || value.length !== 2) fail(path, 'not two numbers');
+  return value.map((item) => number(item, path, -limits.metres, limits.metres));
+}
+
+const atLeast = (count, items, path) =>
+  items.length >= count ? items : fail(path, `fewer than ${count}`);
+
 const place = (value, path) => triple(value, path, -limits.metres, limits.metres);
 const colour = (value, path) => triple(value, path, -1e9, 1e9);
 
@@ -239,6 +247,50 @@ const helpful = (h, path) => ({
   share: number(h.share, `${path}.share`, 0, 1),
 });
 
+const route = (r, path) => ({
+  name: text(r.name, `${path}.name`),
+  width: number(r.width, `${path}.width`, 0, 1e3),
+  path: atLeast(2, list(r.path, `${path}.path`, place), `${path}.path`),
+});
+
+const area = (a, path) => ({
+  name: text(a.name, `${path}.name`),
+  outline: atLeast(3, list(a.outline, `${path}.outline`, corner), `${path}.outline`),
+  z: number(a.z, `${path}.z`, -limits.metres, limits.metres),
+});
+
+const emphasis = (e, path) => ({
+  name: text(e.name, `${path}.name`),
+  position: place(e.position, `${path}.position`),
+});
+
+const checkVerdicts = ['pass', 'fail', 'not assessed', 'information', 'not verified'];
+
+const check = (c, path) => ({
+  rule: text(c.rule, `${path}.rule`),
+  title: text(c.title, `${path}.title`),
+  clause: textOr(c.clause, `${path}.clause`, ''),
+  subject: textOr(c.subject, `${path}.subject`, ''),
+  conditions: textOr(c.conditions, `${path}.conditions`, ''),
+  verdict: oneOf(c.verdict, `${path}.verdict`, checkVerdicts),
+  value: numberOrNull(c.value, `${path}.value`),
+  limit: numberOrNull(c.limit, `${path}.limit`),
+  atLeast: c.at_least === true,
+  unit: textOr(c.unit, `${path}.unit`, ''),
+  margin: numberOrNull(c.margin, `${path}.margin`),
+  place: c.place === null || c.place === undefined ? null : place(c.place, `${path}.place`),
+  reasons: textOr(c.reasons, `${path}.reasons`, ''),
+});
+
+const stepKinds = ['factor', 'scenario', 'smoke', 'move', 'add', 'remove'];
+
+const step = (s, path) => ({
+  kind: oneOf(s.kind, `${path}.kind`, stepKinds),
+  name: textOr(s.name, `${path}.name`, ''),
+  count: whole(s.count, `${path}.count`, 0, limits.listed),
+  value: numberOrNull(s.value, `${path}.value`),
+});
+
 const camera = (c, path) => ({
   name: text(c.name, `${path}.name`),
   eye: place(c.eye, `${path}.eye`),
@@ -261,6 +313,7 @@ function statesOf(s, path) {
     to,
     step: number(s.step, `${path}.step`, Number.MIN_VALUE, 1e6),
     at: number(s.at, `${path}.at`, -1e9, 1e9),
+    mainsFailAt: numberOrNull(s.mains_fail_at, `${path}.mains_fail_at`),
   };
 }
 
@@ -280,6 +333,10 @@ const readers = {
     groups: list(m.groups, 'groups', group),
     signs: list(m.signs ?? [], 'signs', sign),
     luminaires: list(m.luminaires ?? [], 'luminaires', luminaire),
+    routes: list(m.routes ?? [], 'routes', route),
+    areas: list(m.areas ?? [], 'areas', area),
+    emphasis: list(m.emphasis ?? [], 'emphasis', emphasis),
+    north: number(m.north_deg ?? 0, 'north_deg', -1e4, 1e4),
     observers: list(m.observers ?? [], 'observers', observer),
     cameras: list(m.cameras ?? [], 'cameras', camera),
     voxels: voxelsOf(m.voxels, 'voxels'),
@@ -317,11 +374,14 @@ const readers = {
     name: text(m.name, 'name'),
     rows: list(m.rows, 'rows', (row, path) => ({
       from: text(row.from, `${path}.from`),
+      along: number(row.along ?? 0, `${path}.along`, 0, limits.metres),
+      eyeHeight: numberOrNull(row.eye_height, `${path}.eye_height`),
       distance: number(row.distance, `${path}.distance`, 0, limits.metres),
       verdict: text(row.verdict, `${path}.verdict`),
       reason: textOr(row.reason, `${path}.reason`, ''),
     })),
     note: textOr(m.note, 'note', ''),
+    provisional: m.provisional === true,
   }),
   picture: (m) => ({
     id: whole(m.id, 'id', 0, 2 ** 53),
@@ -340,16 +400,27 @@ const readers = {
     missing: number(m.missing, 'missing', 0, 1),
     words: text(m.words, 'words'),
   }),
+  checks: (m) => ({
+    rows: list(m.rows, 'rows', check),
+    counts: Object.fromEntries(numbersByName(m.counts, 'counts')),
+    words: text(m.words, 'words'),
+    seconds: number(m.seconds, 'seconds', 0, 1e9),
+  }),
   added: (m) => ({
     kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),
     of: text(m.of, 'of'),
     name: text(m.name, 'name'),
   }),
+  history: (m) => {
+    const steps = list(m.steps, 'steps', step);
+    return { steps, done: whole(m.done, 'done', 0, steps.length) };
+  },
   saved: (m) => ({ file: text(m.file, 'file') }),
   refused: (m) => ({
     why: text(m.why, 'why'),
     picture: m.picture === undefined ? null : whole(m.picture, 'picture', 0, 2 ** 53),
     suggestion: m.suggestion === true,
+    checks: m.checks === true,
   }),
   editor: (m) => ({ editor: m.editor === true }),
 };

@@ -110,6 +110,17 @@ export class CameraWalk {
     if (this.building) this.picture.marks.setWalls(this.building.section(height));
     this.picture.marks.backdrops.cutAt(height);
     this.change();
+    this.stood();
+  }
+
+  /** Brings a place into view: to the middle of plan and orbit; else the walker turns to it. */
+  face(place) {
+    const { motion } = this;
+    this.change(() => {
+      if (motion.mode === 'plan') motion.plan.centre = [place[0], place[1]];
+      else if (motion.mode === 'orbit') motion.orbit.centre = [...place];
+      else stand(motion, motion.eye, place, motion.fov);
+    });
   }
 
   /** Jumps to an observer, who looks along `gaze`, or a camera, which looks at `target`. */
@@ -130,6 +141,12 @@ export class CameraWalk {
 
   get view() {
     return viewOf(this.motion);
+  }
+
+  /** The way the view looks, from +x towards +y. */
+  get yaw() {
+    const { eye, target } = this.view;
+    return Math.atan2(target[1] - eye[1], target[0] - eye[0]);
   }
 
   get inPlan() {

@@ -15,7 +15,7 @@ export class Hands {
   /**
    * `wants`: look(dx, dy) in radians, shift(right, up) in shares of the height, zoom(factor),
    * click(x, y) and grab(x, y), drag(x, y), drop() in picture positions from -1 to 1, step(forward,
-   * side) in metres, key(code). `grab` returns whether something is dragged.
+   * side) in metres, key(code), undo(), redo(). `grab` returns whether something is dragged.
    */
   constructor(canvas, wants) {
     Object.assign(this, { canvas, wants });
@@ -47,11 +47,22 @@ export class Hands {
 
   keyDown(event) {
     if (document.querySelector('dialog[open]')) return;
-    if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (typing(event.target) || event.altKey) return;
+    if (event.ctrlKey || event.metaKey) return this.combined(event);
     if (control(event.target) && /^(Arrow|Page)/.test(event.code)) return;
     if (walkKeys.has(event.code)) event.preventDefault();
     this.keys.add(event.code);
     if (!event.repeat) this.wants.key(event.key === '?' ? '?' : event.code);
+  }
+
+  /** Keys together with Ctrl, or with Command on a Mac. Letters count, whatever the layout. */
+  combined(event) {
+    const letter = event.key.toLowerCase();
+    const wanted = letter === 'y' || (letter === 'z' && event.shiftKey) ? 'redo'
+      : letter === 'z' ? 'undo' : null;
+    if (!wanted) return;
+    event.preventDefault();
+    this.wants[wanted]();
   }
 
   place({ clientX, clientY }) {

@@ -1,0 +1,16 @@
+// The checks of the codes for a live view, in its present state, by direct light in clear air: they
+// take a moment, and follow every edit. What people read through smoke is asked of each sign
+// (sign_verdicts.hpp). Any thread.
+#pragma once
+
+#include "actors/apps/view/live_trace.hpp"
+#include "actors/results/formats/json_out.hpp"
+
+namespace luxodus {
+
+/// A message of type "checks". `factors`: of groups, by dimming. Errors: as
+/// checks_by_codes; a pack; a scene without anything to check.
+Result<Json> code_checks(const SceneDescription& scene, const SceneEdits& edits,
+                         const std::map<std::string, double>& factors, const LiveOptions& options);
+
+}  // namespace luxodus

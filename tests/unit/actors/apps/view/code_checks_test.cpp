@@ -1,0 +1,111 @@
+// The checks of the codes in a live view: they follow moves and dimming, and the worst come first.
+#include "actors/apps/view/code_checks.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/kit/described.hpp"
+#include "tests/kit/temporary_folder.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+std::shared_ptr<const SceneDescription> lit_way(const test::TemporaryFolder& folder) {
+  return test::described(folder.write("scene.toml", R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [14, 3, 3]
+material = "white50"
+[assessment]
+rules = ["en1838-2013"]
+[[scenario]]
+name = "failed"
+operation = "emergency"
+[[emitter]]
+name = "lamp"
+shape = "disc"
+diameter = 0.1
+position = [3, 1.5, 2.97]
+flux_lm = 200
+emergency = "maintained"
+emergency_flux = 200
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+[[route]]
+name = "way"
+path = [[1, 1.5, 0], [13, 1.5, 0]]
+width = 1
+)"));
+}
+
+Json checks_of(const SceneDescription& scene, const SceneEdits& edits,
+               const std::map<std::string, double>& factors = {}) {
+  LiveOptions options;
+  options.threads = 2;
+  const auto checks = code_checks(scene, edits, factors, options);
+  INFO((checks ? std::string() : checks.problem().text()));
+  REQUIRE(checks.ok());
+  return checks.value();
+}
+
+/// The check of the illuminance on the centre line.
+Json centre_line(const Json& checks) {
+  const Json& rows = checks["rows"];
+  const auto at = std::find_if(rows.begin(), rows.end(), [](const Json& row) {
+    return row["rule"] == "E1" && row["value"].is_number();
+  });
+  REQUIRE(at != rows.end());
+  return *at;
+}
+
+}  // namespace
+
+TEST_CASE("the checks of a live view follow moves and dimming", "[view][codes]") {
+  const test::TemporaryFolder folder;
+  const auto scene = lit_way(folder);
+  SceneEdits edits;
+  edits.scenario = "failed";
+  const Json now = checks_of(*scene, edits);
+  CHECK(now["type"] == "checks");
+  CHECK(now["counts"]["fail"].get<int>() > 0);
+  const Json dark = centre_line(now);
+  CHECK(dark["verdict"] == "fail");
+  CHECK(dark["subject"] == "route \"way\"");
+  CHECK(dark["limit"] == 1.0);
+  CHECK(dark["at_least"] == true);
+  CHECK(dark["place"][0].get<double>() == Approx(13).margin(0.5));  // the far end
+  CHECK(dark["margin"].get<double>() == Approx(dark["value"].get<double>() - 1));
+  SECTION("dimmed") {
+    const Json dimmed = centre_line(checks_of(*scene, edits, {{"lamp", 0.5}}));
+    CHECK(dimmed["value"].get<double>() ==
+          Approx(0.5 * dark["value"].get<double>()).epsilon(1e-6));
+  }
+  SECTION("moved to the middle") {
+    edits.luminaires["lamp"] = {{7, 1.5, 2.97}, std::nullopt};
+    CHECK(centre_line(checks_of(*scene, edits))["value"].get<double>() >
+          2 * dark["value"].get<double>());
+  }
+}
+
+TEST_CASE("checks that fail come first, the smallest margin first", "[view][codes]") {
+  const test::TemporaryFolder folder;
+  SceneEdits edits;
+  edits.scenario = "failed";
+  const Json checks = checks_of(*lit_way(folder), edits);
+  const Json& rows = checks["rows"];
+  size_t counted = 0;
+  for (const auto& count : checks["counts"]) counted += count.get<size_t>();
+  CHECK(rows.size() == counted);
+  REQUIRE(rows.front()["verdict"] == "fail");
+  const auto fails = [](const Json& row) { return row["verdict"] == "fail"; };
+  CHECK(std::is_partitioned(rows.begin(), rows.end(), fails));
+  double last = -1e9;
+  for (const Json& row : rows) {
+    if (!fails(row) || !row["margin"].is_number()) continue;
+    CHECK(row["margin"].get<double>() >= last);
+    last = row["margin"].get<double>();
+  }
+}
