@@ -798,6 +798,33 @@ test('one of two viewers edits, and the other may take over', async () => {
   await second.context().close();
 });
 
+test('the keyboard alone walks, selects, moves and undoes', async () => {
+  await settled();
+  await page.locator('#picture').focus();
+  await page.keyboard.press('n');
+  const first = await page.evaluate(() => window.luxodus.page.panels.inspect.subject);
+  assert.ok(['sign', 'luminaire'].includes(first.kind), JSON.stringify(first));
+  await page.keyboard.press('n');
+  const second = await page.evaluate(() => window.luxodus.page.panels.inspect.subject);
+  assert.notEqual(second.name, first.name);
+  const active = () => page.evaluate(() => document.activeElement.getAttribute('aria-label'));
+  const old = server.heard.filter((m) => m.type === 'move').length;
+  for (let i = 0; i < 40 && (await active()) !== 'Right'; ++i) await page.keyboard.press('Tab');
+  assert.equal(await active(), 'Right');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction((n) => window.luxodus.page.panels.history.steps.length &&
+    !window.luxodus.page.selection.mover.pending, old, patience);
+  const moves = server.heard.filter((m) => m.type === 'move');
+  assert.equal(moves.length, old + 1);
+  assert.equal(moves.at(-1).name, second.name);
+  const done = await page.evaluate(() => window.luxodus.page.panels.history.done);
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction((n) => window.luxodus.page.panels.history.done === n - 1, done,
+    patience);
+  await page.keyboard.press('Escape');
+  await selected(null);
+});
+
 /** Walks 1 m/s north between the sign and its reader, from whom the body hides the sign at 20 s. */
 const passer = ([, y]) => {
   const feet = Array.from({ length: 41 }, (_, i) => [2.5, y - 2 + 0.1 * i, 0]);

@@ -47,6 +47,22 @@ export class Selection {
     else this.clear();
   }
 
+  /** Selects the next of all signs and luminaires, the nearest to the viewer first. */
+  next() {
+    const { scene } = this.live;
+    if (!scene) return;
+    const { eye } = this.walk.motion;
+    const away = ({ position }) => Math.hypot(...position.map((x, k) => x - eye[k]));
+    const all = ['signs', 'luminaires'].flatMap((list) =>
+      scene[list].map((thing) => ({ kind: list.slice(0, -1), thing })));
+    all.sort((a, b) => away(a.thing) - away(b.thing));
+    const subject = this.inspect.subject ?? {};
+    const now = all.findIndex(({ kind, thing }) =>
+      kind === subject.kind && thing.name === subject.name);
+    const chosen = all[(now + 1) % all.length];
+    if (chosen) this[chosen.kind](chosen.thing);
+  }
+
   signAt(x, y, distance) {
     if (this.walk.inPlan) return this.markAt(x, y, this.live.scene.signs);
     const { origin, direction } = this.walk.ray(x, y);

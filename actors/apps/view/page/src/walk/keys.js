@@ -17,6 +17,7 @@ export function keyActions(page) {
     KeyM: () => panels.marks.click(),
     KeyR: () => page.render(),
     KeyK: () => panels.clock.toggle(),
+    KeyN: () => selection.next(),
     KeyL: () => page.hands.lock(),
     Escape: () => selection.clear(),
     Equal: nearer,
