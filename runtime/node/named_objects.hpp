@@ -89,6 +89,8 @@ class NamedObjects final : private ObjectStore, private ObjectBuilder {
   std::vector<uint64_t> keys_;                    // by slot
   std::unordered_map<uint64_t, uint32_t> slots_;  // by hash of the name
   std::unordered_map<uint64_t, Search*> searches_;
+  size_t first_rounds_ = 0;  // searches that wait for their first answers
+  WaitList turn_;            // fibers that will search when there are fewer
   uint32_t hand_ = 0;  // the slot that is looked at next for reuse
   uint64_t asked_ = 0;
   PartServer server_;
