@@ -27,8 +27,8 @@ constexpr Nanoseconds longest_round = seconds(1);
 constexpr size_t names_at_once = defaults::outbox_messages / 2;
 
 /// Bytes that are fetched at once, if two of the largest objects are no more: the windows of four
-/// links, and what 10 Gb/s bring in 3 ms. With 16 MB, objects of 100 kB took 1.4 times the processor
-/// time on one host, since its caches do not hold them.
+/// links, and what 10 Gb/s bring in 3 ms. With 16 MB, objects of 100 kB took 1.4 times as much
+/// processor time on one host, since its caches do not hold them.
 constexpr size_t bytes_at_once = 4 << 20;
 
 /// A fiber that finds everything in the cache lets others run after this many objects: 32 take some
