@@ -297,8 +297,7 @@ size_t Codec::encode(const Envelope& envelope, std::span<const std::byte> body,
 
 namespace {
 uint64_t check_of(std::span<const std::byte> frame) {
-  const auto checked = frame.subspan(limits::check_bytes);
-  return XXH3_64bits(checked.data(), checked.size());  // as Hasher
+  return hash_of(frame.subspan(limits::check_bytes));  // as Hasher
 }
 }  // namespace
 

@@ -176,9 +176,13 @@ void Fetcher::end(PendingFetch& flight) {
 
 Fetcher::PendingFetch* Fetcher::flight_of(const MessageId& id) {
   if (id.sequence == 0) return nullptr;
-  const auto at = std::find(sequences_.begin(), sequences_.end(), id.sequence);
-  if (at == sequences_.end()) return nullptr;
-  PendingFetch& flight = flights_.at(static_cast<size_t>(at - sequences_.begin()));
+  // An answer is looked up several times in a row.
+  if (sequences_[looked_up_] != id.sequence) {
+    const auto at = std::find(sequences_.begin(), sequences_.end(), id.sequence);
+    if (at == sequences_.end()) return nullptr;
+    looked_up_ = static_cast<size_t>(at - sequences_.begin());
+  }
+  PendingFetch& flight = flights_.at(looked_up_);
   return flight.id == id ? &flight : nullptr;
 }
 

@@ -182,6 +182,7 @@ class Fetcher {
   Ring<Wish> waiting_;              // for room: every object at most once
   FixedPool<PendingFetch> flights_;
   std::vector<uint64_t> sequences_;  // of the flights' ids, side by side: every answer is looked up
+  size_t looked_up_ = 0;             // the place of the last that was found
   TimerId begin_timer_;
   bool begins_soon_ = false;
   Counters counters_;

@@ -53,6 +53,7 @@ std::span<const std::byte> Assembler::bytes(const Envelope& envelope) const {
 }
 
 void Assembler::close(const MessageId& id, Kind kind) {
+  if (empty()) return;
   for (Slot& slot : slots_) {
     if (!slot.used || slot.id != id || slot.kind != kind) continue;
     slot.used = false;
@@ -82,6 +83,7 @@ std::optional<Assembler::Abandoned> Assembler::make_room(NodeId newcomer) {
 }
 
 std::optional<Assembler::Abandoned> Assembler::close_idle(Nanoseconds before) {
+  if (empty()) return std::nullopt;
   for (const Slot& slot : slots_) {
     if (!slot.used || slot.missing == 0 || slot.touched >= before) continue;
     const Abandoned abandoned{slot.id, slot.kind};

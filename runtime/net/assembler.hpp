@@ -62,6 +62,8 @@ class Assembler {
     std::span<std::byte> room;
     std::vector<uint64_t> come;  // one bit per chunk
   };
+  /// As it mostly is where messages are short: most calls need no look at the slots then.
+  bool empty() const { return free_ == slots_.size(); }
   const Slot* find(const Envelope& envelope) const;
   Slot* find(const Envelope& envelope) {
     return const_cast<Slot*>(std::as_const(*this).find(envelope));

@@ -28,6 +28,10 @@ constexpr size_t head_bytes = 256;
 /// Bytes of an answer beside the object.
 constexpr size_t reply_bytes = 256;
 
+/// Of a link, for each kind of small messages: requests of all fetches at once, 230 B each with
+/// their overhead. With a quarter of that a node sent some, and waited for a grant.
+constexpr size_t small_window_bytes = NamedObjects::fetches_at_once * 264;
+
 constexpr size_t max_name_bytes = 100;
 
 /// As app_link_times(): a peer that was started again is connected to soon.
@@ -147,6 +151,8 @@ NetConfig Node::net_config() const {
   net.edges = links_of(options_);
   net.times = options_.times;
   net.falls_with_connection = true;
+  net.assemblies = net.outbox_messages = NamedObjects::fetches_at_once;
+  net.small_window_bytes = small_window_bytes;
   net.max_message_bytes =
       std::max(options_.max_message_bytes + head_bytes, options_.max_object_bytes + reply_bytes);
   const size_t hops = longest_route(net.nodes, net.edges) + 2;  // a detour around one failure

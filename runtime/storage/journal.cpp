@@ -1,5 +1,7 @@
 #include "runtime/storage/journal.hpp"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>

@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
                  "luxodus_bench [--repeats 1..1000] [--share 0..1] [--scene NAME] [--pack FILE] "
                  "[TABLE ...]; tables:");
     for (const Table& table : tables) std::fprintf(stderr, " %s", table.name);
-    std::fprintf(stderr, "\n");
+    std::fprintf(stderr, "; of the network, and peers: net_bench\n");
     return 2;
   }
   for (const Table& table : tables)

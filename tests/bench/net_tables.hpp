@@ -17,4 +17,9 @@ void print_fetches(Nanoseconds span, size_t bytes, size_t fibers);
 /// process; memory of a fiber. Requires: the process has no other threads.
 void print_nodes(Nanoseconds span);
 
+/// The same work by the runtime and by other libraries, in turn: each figure is measured seven
+/// times for a quarter of `span`. Only one row of objects if these are given. Requires: the process
+/// has no other threads.
+void print_peers(Nanoseconds span, size_t bytes, size_t in_flight);
+
 }  // namespace luxodus::bench

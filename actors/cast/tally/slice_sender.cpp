@@ -34,7 +34,7 @@ void SliceSender::send(const MessageId& flush, Nanoseconds now) {
   timer_.forget();
   for (Slice& slice : slices_) {
     const auto& bytes = slice.encoder->bytes();
-    slice.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, but without allocating
+    slice.hash = hash_of(bytes);  // as Hasher, but without allocating
     slice.held = false;
   }
   put_missing(now);

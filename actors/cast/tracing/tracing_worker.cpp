@@ -286,7 +286,7 @@ void TracingWorker::on(const PackFlush& pack) {
   }
   const std::span<const std::byte> payload = encoder_->bytes();
   // as Hasher, but without allocating
-  const uint64_t hash = XXH3_64bits(payload.data(), payload.size());
+  const uint64_t hash = hash_of(payload);
   packing_ = false;
   if (over_) return;
   flushing_ = question(flush_timer_, Flush{round_, hash, std::move(packed_leases_), {}},

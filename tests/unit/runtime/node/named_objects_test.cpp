@@ -74,6 +74,27 @@ TEST_CASE("fibers that want one object at once find and fetch it once",
   CHECK(nodes[0].objects().server().fetcher().counters().fetches == 1);
 }
 
+TEST_CASE("thousands of names at once are found within some round trips",
+          "[runtime][node][objects]") {
+  constexpr size_t many = 2000;
+  AppCluster nodes(2, [](NodeOptions& options) { options.fibers = many; });
+  for (size_t i = 0; i < many; ++i) nodes[1].hold("object " + std::to_string(i), std::to_string(i));
+  nodes.start();
+  nodes.until([&] { return nodes[0].is_up(1); });
+  const Nanoseconds began = nodes.clock.now();
+  size_t had = 0;
+  for (size_t i = 0; i < many; ++i)
+    REQUIRE(nodes[0]
+                .spawn("gets",
+                       [&, i] {
+                         const auto bytes = nodes[0].get("object " + std::to_string(i));
+                         had += bytes && as_text(bytes.value()) == std::to_string(i) ? 1 : 0;
+                       })
+                .ok());
+  nodes.until([&] { return had == many; });
+  CHECK(nodes.clock.now() - began < seconds(1));
+}
+
 TEST_CASE("the cache evicts what was used longest ago, and names are forgotten for others",
           "[runtime][node][objects]") {
   AppCluster nodes(2, [](NodeOptions& options) {

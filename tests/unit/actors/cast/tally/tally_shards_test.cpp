@@ -318,7 +318,7 @@ TEST_CASE("a slice that is damaged, of other bins, or counts batches is refused"
   CHECK(answer_to(damaged));
   Mail other = slice;  // the controller's bins, and its batches
   other.payload = stage.payload;
-  other.message = FlushSlice{XXH3_64bits(other.payload.data(), other.payload.size())};
+  other.message = FlushSlice{hash_of(other.payload)};
   CHECK(answer_to(other));
   CHECK_FALSE(answer_to(slice));
   CHECK(stage.shards.at({2})->counters().held == 1);
