@@ -773,31 +773,6 @@ test('illuminance of surfaces is shown in steps with a key', async () => {
   await settled();
 });
 
-test('a refused edit is reported', async () => {
-  await page.getByLabel('Name of the variant').fill('../out');
-  await page.getByRole('button', { name: 'Save as' }).click();
-  await page.locator('.toast', { hasText: 'Refused' }).waitFor(patience);
-  await shot('refused');
-  await page.getByLabel('Name of the variant').fill('variant_2');
-  await page.getByRole('button', { name: 'Save as' }).click();
-  await page.locator('.toast', { hasText: 'variant_2.toml' }).waitFor(patience);
-});
-
-test('one of two viewers edits, and the other may take over', async () => {
-  await settled();  // at rest it draws nothing, and leaves the machine to the other
-  const second = await open();
-  assert.ok(await second.locator('#smoke').isDisabled());
-  assert.ok(await page.locator('#smoke').isEnabled());
-  await pull(slider('lamp east'), 0.25);
-  await second.waitForFunction(() => window.luxodus.page.live.scene.groups
-    .find((g) => g.name === 'lamp east').factor === 0.25, null, patience);
-  await shot('read_only', second);
-  await second.getByRole('button', { name: 'take over' }).click();
-  await second.locator('#smoke:enabled').waitFor(patience);
-  await page.locator('#smoke:disabled').waitFor({ state: 'attached', ...patience });
-  await second.context().close();
-});
-
 test('the keyboard alone walks, selects, moves and undoes', async () => {
   await settled();
   await page.locator('#picture').focus();
@@ -823,6 +798,31 @@ test('the keyboard alone walks, selects, moves and undoes', async () => {
     patience);
   await page.keyboard.press('Escape');
   await selected(null);
+});
+
+test('a refused edit is reported', async () => {
+  await page.getByLabel('Name of the variant').fill('../out');
+  await page.getByRole('button', { name: 'Save as' }).click();
+  await page.locator('.toast', { hasText: 'Refused' }).waitFor(patience);
+  await shot('refused');
+  await page.getByLabel('Name of the variant').fill('variant_2');
+  await page.getByRole('button', { name: 'Save as' }).click();
+  await page.locator('.toast', { hasText: 'variant_2.toml' }).waitFor(patience);
+});
+
+test('one of two viewers edits, and the other may take over', async () => {
+  await settled();  // at rest it draws nothing, and leaves the machine to the other
+  const second = await open();
+  assert.ok(await second.locator('#smoke').isDisabled());
+  assert.ok(await page.locator('#smoke').isEnabled());
+  await pull(slider('lamp east'), 0.25);
+  await second.waitForFunction(() => window.luxodus.page.live.scene.groups
+    .find((g) => g.name === 'lamp east').factor === 0.25, null, patience);
+  await shot('read_only', second);
+  await second.getByRole('button', { name: 'take over' }).click();
+  await second.locator('#smoke:enabled').waitFor(patience);
+  await page.locator('#smoke:disabled').waitFor({ state: 'attached', ...patience });
+  await second.context().close();
 });
 
 /** Walks 1 m/s north between the sign and its reader, from whom the body hides the sign at 20 s. */

@@ -15,9 +15,9 @@ export class PlanKey {
   constructor() {
     this.bar = el('span', { className: 'scalebar' });
     this.length = el('small');
-    this.north = el('span', { className: 'north', textContent: '▲', title: 'North' });
+    this.north = el('span', { className: 'north', textContent: '↑' });
     this.element = byId('plan-key');
-    this.element.append(this.north, this.bar, this.length);
+    this.element.append(el('small', { textContent: 'N' }), this.north, this.bar, this.length);
   }
 
   /** `north` counts from +y towards +x, seen from above [degrees]. */
