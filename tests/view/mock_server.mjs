@@ -328,15 +328,15 @@ export class MockServer {
     this.tell(viewer, { type: 'editor', editor: viewer === this.editor });
   }
 
-  do_checks(viewer) {
-    this.tell(viewer, { type: 'checks', ...room.checks(this.state) });
+  do_checks(viewer, { id }) {
+    this.tell(viewer, { type: 'checks', id, ...room.checks(this.state) });
   }
 
   do_probe(viewer, message) {
     this.tell(viewer, { type: 'probe', id: message.id, ...room.probe(this.state, message) });
   }
 
-  do_judge(viewer, { sign }) {
+  do_judge(viewer, { sign, id }) {
     const { position } = this.state.signs.find((s) => s.name === sign);
     const rows = room.observers.map(({ name, eye }) => {
       const distance = Math.hypot(...eye.map((x, i) => x - position[i]));
@@ -345,7 +345,7 @@ export class MockServer {
         reason: `the detail is at visibility level ${legible ? 11 : 4}, 7 is needed` };
     });
     for (const provisional of [true, false])
-      this.tell(viewer, { type: 'sign', name: sign, rows, provisional });
+      this.tell(viewer, { type: 'sign', id, name: sign, rows, provisional });
   }
 }
 

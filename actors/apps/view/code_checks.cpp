@@ -68,17 +68,21 @@ Json counts_json(const std::vector<Check>& checks) {
 }  // namespace
 
 Result<Json> code_checks(const SceneDescription& scene, const SceneEdits& edits,
-                         const std::map<std::string, double>& factors, const LiveOptions& options) {
+                         const LiveDimming& dimming, const LiveOptions& options) {
   if (scene.packed)
     return problem("a pack has no triangles to check: view the scene that it was made of");
   if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty())
     return problem("there is nothing to check: add [[route]], [[open_area]] or [[task_area]]");
   const SystemClock clock;
   const Nanoseconds began = clock.now();
-  const auto now = dimmed_description(scene, edits, factors);
+  const auto now = dimmed_description(scene, edits, dimming.factors);
   if (!now) return now.problem();
-  const auto scenario = find_scenario(now.value(), edits.scenario);
+  auto scenario = find_scenario(now.value(), edits.scenario);
   if (!scenario) return scenario.problem();
+  if (dimming.seconds) {
+    scenario->seconds_after_failure = *dimming.seconds;
+    scenario->says_seconds = true;
+  }
   const auto codes = judged_codes(now.value(), {}, {});
   if (!codes) return codes.problem();
   auto checks = checks_by_codes(now.value(), scenario.value(), codes.value(), options.threads);

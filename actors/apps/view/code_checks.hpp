@@ -3,14 +3,15 @@
 // (sign_verdicts.hpp). Any thread.
 #pragma once
 
-#include "actors/apps/view/live_trace.hpp"
+#include "actors/apps/view/live_json.hpp"
 #include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {
 
-/// A message of type "checks". `factors`: of groups, by dimming. Errors: as
-/// checks_by_codes; a pack; a scene without anything to check.
+/// A message of type "checks", without its id: with the viewers' factors, at their time after the
+/// failure of the mains or else at that of the scenario. Errors: as checks_by_codes; a pack; a
+/// scene without anything to check.
 Result<Json> code_checks(const SceneDescription& scene, const SceneEdits& edits,
-                         const std::map<std::string, double>& factors, const LiveOptions& options);
+                         const LiveDimming& dimming, const LiveOptions& options);
 
 }  // namespace luxodus

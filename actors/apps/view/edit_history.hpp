@@ -40,10 +40,11 @@ class EditHistory {
   using Time = std::chrono::steady_clock::time_point;
   explicit EditHistory(EditedState first);
 
+  enum class Noted : uint8_t { nothing, continued, changed };
   /// Adds a step that led to `now`, and forgets steps that were undone. A drag of one slider, and
-  /// one click that changes many lights, arrive as many edits and become one step. An edit that
-  /// changes nothing is no step.
-  void note(EditStep step, EditedState now, Time at);
+  /// one click that changes many things, arrive as many edits and become one step. An edit that
+  /// changes nothing is no step, nor is a drag that returns to where it began.
+  Noted note(EditStep step, EditedState now, Time at);
 
   const std::vector<EditStep>& steps() const { return steps_; }
   /// The number of steps that are not undone.
@@ -52,18 +53,23 @@ class EditHistory {
   /// Requires: done <= steps().size().
   const EditedState& go_to(size_t done);
 
-  /// Forgets the steps that led from the last state with these edits to `now`, since they were
-  /// refused; all, if there is no such state.
-  void take_back(const EditedState& now);
+  /// What has led away from `now` was refused, and `now` holds again. After an edit, the steps that
+  /// were refused are forgotten; dimming, which is never refused, stays. After undoing or redoing
+  /// all steps stay. Returns the factors that hold.
+  std::map<std::string, double> take_back(const EditedState& now);
 
  private:
   /// Whether a step continues the last one.
   bool continues(const EditStep& step, Time at) const;
+  /// The state with these edits that is nearest to the present one; none if there is none.
+  std::optional<size_t> nearest_with(const SceneEdits& edits) const;
+  void forget_refused_after(size_t kept, const EditedState& now);
 
   std::vector<EditStep> steps_;
   std::vector<EditedState> states_;  // before the first step and after each
   size_t done_ = 0;
-  Time last_;  // of the last note
+  bool travelled_ = false;  // the present state was gone to, and not led to by an edit
+  Time last_;               // of the last note
 };
 
 }  // namespace luxodus

@@ -57,12 +57,17 @@ Json sign_json(const Sign& sign, const std::string& of, bool of_type) {
 
 /// What tells kinds of luminaires apart, as far as a viewer sees.
 auto kind_of(const Emitter& e) {
-  return std::tuple(e.file, e.product, e.shape, e.size.x, e.size.y, e.mains_flux, e.emergency_flux);
+  return std::tuple(e.file, e.product, e.facts.maker, e.shape, e.size.x, e.size.y, e.distribution,
+                    e.cosine_power, e.spot_inner_deg, e.spot_outer_deg, e.spectrum.value,
+                    e.radiometric, e.mains_flux, e.emergency_flux);
 }
 
 auto kind_of(const Sign& sign) {
+  std::vector<std::pair<double, double>> luminances;
+  for (const FaceColour& one : sign.colours)
+    luminances.emplace_back(one.mains_cd_m2, one.emergency_cd_m2);
   return std::tuple(sign.file, sign.text, sign.width_m, sign.height_m, sign.lighting,
-                    sign.double_sided);
+                    sign.double_sided, std::move(luminances));
 }
 
 /// The first of each kind.

@@ -1,13 +1,12 @@
 #include "actors/apps/view/live_trace.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "actors/apps/view/edits_text.hpp"
+#include "actors/apps/view/give_way.hpp"
 
 namespace luxodus {
 
@@ -20,13 +19,6 @@ constexpr int64_t first_batches = 16;
 constexpr int64_t hurry_batches = 32;
 /// Pending questions; more are dropped.
 constexpr size_t max_questions = 64;
-
-/// Tracing, which uses all processors for minutes, leaves them to answers that viewers wait for: on
-/// Linux the priority is that of the calling thread, and of the threads that it starts.
-void give_way_to_answers() {
-  constexpr int lower = 10;
-  (void)setpriority(PRIO_PROCESS, 0, lower);
-}
 
 LiveAnswer answer_to(const LiveQuestion& question, const LiveRun& run, const LivePatch& patch) {
   const CompiledScene& scene = run.scene();

@@ -10,6 +10,8 @@ namespace luxodus {
 
 namespace {
 
+constexpr int64_t max_id = int64_t{1} << 53;
+
 /// Reads one object's members; keeps the first error.
 class Members {
  public:
@@ -111,7 +113,7 @@ AddEdit read_add(Members& m) {
 
 RenderAsk read_render(Members& m) {
   RenderAsk out;
-  out.id = m.whole("id", int64_t{1} << 53);
+  out.id = m.whole("id", max_id);
   out.eye = m.vector("eye");
   out.target = m.vector("target");
   out.up = m.vector("up");
@@ -144,12 +146,12 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
   if (type == "history") return HistoryEdit{m.whole("done", limits::view_steps)};
   if (type == "edit") return EditWish{m.flag("wanted")};
   if (type == "probe")
-    return ProbeAsk{m.whole("id", int64_t{1} << 53),
+    return ProbeAsk{m.whole("id", max_id),
                     static_cast<uint32_t>(m.whole("triangle", UINT32_MAX)), m.flag("front")};
-  if (type == "judge") return JudgeAsk{m.text("sign")};
+  if (type == "judge") return JudgeAsk{m.text("sign"), m.has("id") ? m.whole("id", max_id) : 0};
   if (type == "render") return read_render(m);
   if (type == "stop_render") return RenderStop{};
-  if (type == "checks") return ChecksAsk{};
+  if (type == "checks") return ChecksAsk{m.has("id") ? m.whole("id", max_id) : 0};
   if (type == "suggest") return SuggestAsk{m.texts("free", limits::view_added)};
   return std::nullopt;
 }

@@ -74,6 +74,7 @@ struct ProbeAsk {
 };
 struct JudgeAsk {
   std::string sign;
+  int64_t id = 0;  // echoed, so that a viewer tells answers apart
 };
 /// Requests a traced picture of the viewer's view.
 struct RenderAsk {
@@ -90,7 +91,9 @@ struct SuggestAsk {
   std::vector<std::string> free;
 };
 /// Asks for the checks of the codes.
-struct ChecksAsk {};
+struct ChecksAsk {
+  int64_t id = 0;  // as of JudgeAsk
+};
 using PageMessage =
     std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit, AddEdit,
                  RemoveEdit, SaveEdit, HistoryEdit, EditWish, ProbeAsk, JudgeAsk, RenderAsk,

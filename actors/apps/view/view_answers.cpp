@@ -16,6 +16,7 @@ Json refusal(const ViewQuestion& question, const std::string& why) {
   Json out = {{"type", "refused"}, {"why", why}};
   if (std::holds_alternative<SuggestAsk>(question)) out["suggestion"] = true;
   if (std::holds_alternative<ChecksAsk>(question)) out["checks"] = true;
+  if (const auto* const judge = std::get_if<JudgeAsk>(&question)) out["sign"] = judge->sign;
   return out;
 }
 
@@ -51,11 +52,12 @@ void AnswerLane::put(ViewOrder order) {
 void AnswerLane::forget(uint64_t viewer) {
   const std::lock_guard lock(mutex_);
   std::erase_if(waiting_, [&](const ViewOrder& one) { return one.viewer == viewer; });
+  if (served_ == viewer) served_.reset();
 }
 
-bool AnswerLane::is_replaced(const ViewOrder& order) {
+bool AnswerLane::is_in_vain(const ViewOrder& order) {
   const std::lock_guard lock(mutex_);
-  return std::any_of(waiting_.begin(), waiting_.end(),
+  return served_ != order.viewer || std::any_of(waiting_.begin(), waiting_.end(),
                      [&](const ViewOrder& one) { return replaces(one, order); });
 }
 
@@ -66,6 +68,7 @@ void AnswerLane::work() {
     if (ends_) return;
     const ViewOrder order = std::move(waiting_.front());
     waiting_.pop_front();
+    served_ = order.viewer;
     lock.unlock();
     answer_(order);
     lock.lock();
@@ -112,23 +115,40 @@ void ViewAnswers::answer(const ViewOrder& order) {
 Result<Json> ViewAnswers::answer_to(const ViewOrder& order, const SceneDescription& scene) {
   if (const auto* const suggest = std::get_if<SuggestAsk>(&order.question))
     return suggestion(scene, order.edits, suggest->free, options_, ends_);
-  if (std::holds_alternative<ChecksAsk>(order.question))
-    return code_checks(scene, order.edits, order.dimming.factors, options_);
+  if (std::holds_alternative<ChecksAsk>(order.question)) return checks(order, scene);
   return verdicts(order);
+}
+
+Result<Json> ViewAnswers::checks(const ViewOrder& order, const SceneDescription& scene) {
+  const LiveDimming& dimming = order.dimming;
+  if (!checked_ || checked_->edits != order.edits || checked_->factors != dimming.factors ||
+      checked_->seconds != dimming.seconds) {
+    auto answer = code_checks(scene, order.edits, dimming, options_);
+    if (!answer) return answer;
+    checked_ =
+        Checked{order.edits, dimming.factors, dimming.seconds, std::move(answer).value()};
+  }
+  Json out = checked_->answer;
+  out["id"] = std::get<ChecksAsk>(order.question).id;
+  return out;
 }
 
 Result<Json> ViewAnswers::verdicts(const ViewOrder& order) {
   const auto judged = options_.judged ? options_.judged->at(order.edits.at_s)
                                       : scene_at_(order.edits.at_s);
   if (!judged) return judged.problem();
-  const auto with = [&](VerdictCare care) {
-    return sign_verdicts(*judged.value(), order.edits, order.dimming.both(),
-                         std::get<JudgeAsk>(order.question).sign, care, options_, ends_);
+  const auto& ask = std::get<JudgeAsk>(order.question);
+  const auto with = [&](VerdictCare care) -> Result<Json> {
+    Json out = sign_verdicts(*judged.value(), order.edits, order.dimming.both(), ask.sign, care,
+                             options_, ends_);
+    if (out["type"] == "refused") return problem(out["why"].get<std::string>());
+    out["id"] = ask.id;
+    return out;
   };
-  Json first = with(VerdictCare::provisional);
-  if (first["type"] == "refused") return first;
-  tell_(order.viewer, first);
-  if (others_.is_replaced(order)) return Json();
+  const auto first = with(VerdictCare::provisional);
+  if (!first) return first;
+  tell_(order.viewer, first.value());
+  if (others_.is_in_vain(order)) return Json();
   return with(VerdictCare::sure);
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <variant>
 
@@ -38,10 +39,11 @@ class AnswerLane {
   AnswerLane& operator=(const AnswerLane&) = delete;
 
   void put(ViewOrder order);
-  /// Drops what waits of a viewer.
+  /// Drops what waits of a viewer, who has left.
   void forget(uint64_t viewer);
-  /// Whether a later order of the same viewer and kind waits.
-  bool is_replaced(const ViewOrder& order);
+  /// Whether nobody waits for the rest of this answer, which is in work: its viewer has left, or a
+  /// later order of the same viewer and kind waits.
+  bool is_in_vain(const ViewOrder& order);
 
  private:
   static bool replaces(const ViewOrder& one, const ViewOrder& other) {
@@ -53,6 +55,7 @@ class AnswerLane {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<ViewOrder> waiting_;
+  std::optional<uint64_t> served_;  // the viewer whose order is in work; none once that has left
   bool ends_ = false;
   std::thread thread_;  // declared last: it starts when all other members exist
 };
@@ -74,14 +77,23 @@ class ViewAnswers {
  private:
   void answer(const ViewOrder& order);
   Result<Json> answer_to(const ViewOrder& order, const SceneDescription& scene);
-  /// Tells provisional verdicts first, and returns the sure ones; null if another sign is wanted by
+  /// Tells provisional verdicts first, and returns the sure ones; null if nobody waits for them by
   /// then.
   Result<Json> verdicts(const ViewOrder& order);
+  Result<Json> checks(const ViewOrder& order, const SceneDescription& scene);
 
   const LiveOptions options_;
   const SceneAt scene_at_;
   const Tell tell_;
   std::atomic<bool> ends_{false};
+  /// The last checks, for other viewers of the same state. Used by the thread of checks only.
+  struct Checked {
+    SceneEdits edits;
+    std::map<std::string, double> factors;
+    std::optional<double> seconds;
+    Json answer;
+  };
+  std::optional<Checked> checked_;
   AnswerLane checks_, others_;  // declared last: their threads use all other members
 };
 

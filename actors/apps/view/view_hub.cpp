@@ -30,6 +30,13 @@ bool is_there(const SceneDescription& scene, bool is_sign, const std::string& na
                  : std::any_of(scene.emitters.begin(), scene.emitters.end(), is_it);
 }
 
+Json step_json(const EditStep& step) {
+  return {{"kind", name_of(step.kind)},
+          {"name", step.names.empty() ? Json() : Json(step.names.front())},
+          {"count", step.names.size()},
+          {"value", step.value ? Json(*step.value) : Json()}};
+}
+
 /// Whether a name is a plain file name.
 bool is_plain_name(const std::string& name) {
   return name.find_first_not_of(
@@ -179,7 +186,7 @@ void ViewHub::refuses(uint64_t number, const std::string& why) {
     // Later edits are judged by themselves, including what remains of the refused ones.
     if (number == wish_number_) {
       take_back();
-      history_.take_back({edits_, dimming_.factors});
+      dim_as(history_.take_back({edits_, dimming_.factors}));
       to_all(history_json());
     }
     to_all({{"type", "refused"}, {"why", why}});
@@ -270,7 +277,10 @@ void ViewHub::handle(Viewer& viewer, const FactorEdit& edit) {
   if (std::none_of(groups.begin(), groups.end(),
                    [&](const Group& g) { return g.name == edit.group; }))
     return refuse(viewer, "there is no light \"" + edit.group + "\" in this scenario");
-  dimming_.factors[edit.group] = edit.factor;
+  if (edit.factor == 1)
+    dimming_.factors.erase(edit.group);
+  else
+    dimming_.factors[edit.group] = edit.factor;
   to_all({{"type", "factors"}, {"factors", {{edit.group, edit.factor}}}});
   note(EditKind::factor, edit.group, edit.factor);
 }
@@ -380,22 +390,31 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
   if (copy.name.size() > limits::view_name_chars)
     return refuse(viewer, "the copy's name would be too long: give the original a shorter one");
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
-  auto& moves = copy.is_sign ? edits_.signs : edits_.luminaires;
-  SceneEdits::Move move{edit.position, edit.facing};
-  if (const auto at = moves.find(edit.of); !move.facing && at != moves.end())
-    move.facing = at->second.facing;  // as the original stands now
-  moves[copy.name] = move;
-  edits_.added.push_back(copy);
-  const auto group_of = copy.is_sign ? group_of_sign : group_of_luminaire;
-  if (const auto dimmed = dimming_.factors.find(group_of(edit.of));
-      dimmed != dimming_.factors.end())
-    dimming_.factors[group_of(copy.name)] = dimmed->second;
+  if (copy.is_sign && copy.of_type && !edit.facing)
+    return refuse(viewer, "a sign of a type needs \"facing\": it hangs nowhere yet");
+  place_copy(copy, edit);
   viewer.send_text(text_of({{"type", "added"},
                             {"kind", copy.is_sign ? "sign" : "luminaire"},
                             {"of", edit.of},
                             {"name", copy.name}}));
   note(EditKind::add, copy.name);
   trace_edits();
+}
+
+/// A copy stands and is dimmed like its original; one of a type has none.
+void ViewHub::place_copy(const SceneEdits::Copy& copy, const AddEdit& edit) {
+  auto& moves = copy.is_sign ? edits_.signs : edits_.luminaires;
+  SceneEdits::Move move{edit.position, edit.facing};
+  if (!edit.of_type) {
+    if (const auto at = moves.find(edit.of); !move.facing && at != moves.end())
+      move.facing = at->second.facing;
+    const auto group_of = copy.is_sign ? group_of_sign : group_of_luminaire;
+    if (const auto dimmed = dimming_.factors.find(group_of(edit.of));
+        dimmed != dimming_.factors.end())
+      dimming_.factors[group_of(copy.name)] = dimmed->second;
+  }
+  moves[copy.name] = move;
+  edits_.added.push_back(copy);
 }
 
 void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
@@ -413,17 +432,16 @@ void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
 void ViewHub::note(EditKind kind, const std::string& name, std::optional<double> value) {
   EditStep step{kind, {}, value};
   if (!name.empty()) step.names.push_back(name);
-  history_.note(std::move(step), {edits_, dimming_.factors}, std::chrono::steady_clock::now());
-  to_all(history_json());
+  const auto noted = history_.note(std::move(step), {edits_, dimming_.factors},
+                                   std::chrono::steady_clock::now());
+  if (noted == EditHistory::Noted::continued)  // many times a second, while a slider is dragged
+    to_all({{"type", "step"}, {"last", step_json(history_.steps().back())}});
+  if (noted == EditHistory::Noted::changed) to_all(history_json());
 }
 
 Json ViewHub::history_json() const {
   Json steps = Json::array();
-  for (const EditStep& step : history_.steps())
-    steps.push_back({{"kind", name_of(step.kind)},
-                     {"name", step.names.empty() ? Json() : Json(step.names.front())},
-                     {"count", step.names.size()},
-                     {"value", step.value ? Json(*step.value) : Json()}});
+  for (const EditStep& step : history_.steps()) steps.push_back(step_json(step));
   return {{"type", "history"}, {"steps", std::move(steps)}, {"done", history_.done()}};
 }
 

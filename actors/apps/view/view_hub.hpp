@@ -80,6 +80,7 @@ class ViewHub final : private LiveAudience {
   /// Has the edits traced. They may be refused until that begins, and are then taken back.
   void trace_edits();
   void take_back();
+  void place_copy(const SceneEdits::Copy& copy, const AddEdit& edit);
   /// Records that an edit has changed the state, and tells all viewers.
   void note(EditKind kind, const std::string& name, std::optional<double> value = {});
   Json history_json() const;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "actors/apps/view/edits_text.hpp"
+#include "actors/apps/view/give_way.hpp"
 #include "actors/results/pictures/view_files.hpp"
 #include "runtime/core/base64.hpp"
 #include "runtime/core/output_text.hpp"
@@ -124,6 +125,7 @@ void ViewPictures::cancel(uint64_t viewer) {
 }
 
 void ViewPictures::work() {
+  give_way_to_answers();
   for (;;) {
     Order order;
     {

@@ -252,10 +252,6 @@ void find_floors(const SceneDescription& scene, const Building& building, Assess
   out.sign_floors = storey_floors(scene, building, signs);
 }
 
-}  // namespace
-
-namespace {
-
 /// What is asked of a building beside its checks: called once, without furniture.
 using Beside = std::function<void(const CodeMode& mode, const Building& building)>;
 

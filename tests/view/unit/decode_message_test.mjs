@@ -162,10 +162,11 @@ test('a suggestion is decoded field by field, and refused with a wrong field', (
 test('a refusal names its picture or suggestion, if it concerns one', () => {
   const read = (more) => decodeMessage(JSON.stringify({ type: 'refused', why: 'so', ...more }));
   assert.deepEqual(read({}), { type: 'refused', why: 'so', picture: null, suggestion: false,
-    checks: false });
+    checks: false, sign: null });
   assert.equal(read({ picture: 7 }).picture, 7);
   assert.equal(read({ suggestion: true }).suggestion, true);
   assert.equal(read({ checks: true }).checks, true);
+  assert.equal(read({ sign: 'exit' }).sign, 'exit');
   assert.throws(() => read({ picture: -1 }), ProtocolError);
 });
 
@@ -175,6 +176,8 @@ test('steps of edits are decoded, and no more than there are hold', () => {
   const history = decodeMessage(JSON.stringify({ type: 'history', steps, done: 1 }));
   assert.deepEqual(history.steps[1], { kind: 'smoke', name: '', count: 0, value: 2 });
   assert.equal(history.done, 1);
+  assert.deepEqual(read({ type: 'step', last: steps[0] }).last, steps[0]);
+  assert.throws(() => read({ type: 'step' }), ProtocolError);
   const bad = (more) => () =>
     decodeMessage(JSON.stringify({ type: 'history', steps, done: 1, ...more }));
   assert.throws(bad({ done: 3 }), ProtocolError);

@@ -57,14 +57,17 @@ test('a kind says its flux in each operation, a sign its size', () => {
 
 const building = new Building(decodeFrame(geometryFrame(1)));
 const view = (eye, direction, more = {}) =>
-  ({ eye, ray: { origin: eye, direction }, inPlan: false, centre: [0, 0, 0], ...more });
+  ({ eye, ray: { origin: eye, direction }, mode: 'walk', centre: [0, 0, 0], cut: Infinity,
+    ...more });
 
 test('luminaires are added under the ceiling ahead, before the next wall', () => {
   const eye = [2, 3, 1.65];
   near(placeOf('luminaire', building, view(eye, [1, 0, 0])).position, [4, 3, 2.97]);
   near(placeOf('luminaire', building, view(eye, [-1, 0, 0])).position, [0.3, 3, 2.97]);
   near(placeOf('luminaire', building, view(eye, [0, 0, 1],
-    { inPlan: true, centre: [8, 4, 2.2] })).position, [8, 4, 2.97]);
+    { mode: 'plan', centre: [8, 4, 2.2] })).position, [8, 4, 2.97]);
+  near(placeOf('luminaire', building, view([30, 3, 9], [-1, 0, -0.2],
+    { mode: 'orbit', centre: [5, 3, 1.5] })).position, [5, 3, 2.97]);
 });
 
 test('signs are added to the wall in view, and face the viewer', () => {

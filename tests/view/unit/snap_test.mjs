@@ -48,10 +48,42 @@ test('a drag in plan snaps, and a typed place is taken as it is', () => {
   mover.snaps = false;
   mover.drag([3.93, 2.013, 500], down);
   near(mover.thing.position, [3.93, 2.013, 2.9]);
-  mover.place([1.234, 2, 2.5]);
-  near(said.at(-1).position, [1.234, 2, 2.5]);
+  mover.place(2, 2.5);
+  near(said.at(-1).position, [3.93, 2.013, 2.5]);
   const count = said.length;
-  mover.place([NaN, 2, 2.5]);
+  mover.place(0, NaN);
   assert.equal(said.length, count);
+  mover.release();
+});
+
+test('a sign never snaps through its wall', () => {
+  const { mover } = held(0);
+  const half = Math.SQRT1_2;
+  mover.hold('sign', { name: 'oblique', position: [5, 5, 2.2], facing: [half, half, 0],
+    up: [0, 0, 1], width: 0.3, height: 0.15 });
+  mover.grab([9, 9, 2.2], [-half, -half, 0], false);
+  mover.drag([9.43, 8.57, 2.28], [-half, -half, 0]);
+  const [x, y, z] = mover.thing.position;
+  assert.ok(Math.abs(x + y - 10) < 1e-9, 'it stays in the plane of its wall');
+  assert.ok(Math.abs(z - 2.3) < 1e-9);
+  mover.release();
+  mover.hold('sign', { name: 'south', position: [5, 0.02, 2.2], facing: [0, 1, 0],
+    up: [0, 0, 1], width: 0.3, height: 0.15 });
+  mover.grab([5, 0.02, 500], [0, 0, -1], true);
+  mover.drag([4.07, 0.02, 500], [0, 0, -1]);
+  near(mover.thing.position, [4, 0.02, 2.2]);
+  mover.release();
+});
+
+test('a nudge is sent when another thing is selected, and forgotten by an undo', () => {
+  const { mover, said } = held(0);
+  mover.nudge('up', 1);
+  mover.hold('luminaire', { name: 'other', position: [9, 9, 2.9] });
+  assert.deepEqual(said.map(({ name }) => name), ['lamp']);
+  mover.nudge('up', 1);
+  mover.cancel();
+  near(mover.thing.position, [9, 9, 2.9]);
+  mover.drop();
+  assert.equal(said.length, 1);
   mover.release();
 });

@@ -9,7 +9,8 @@ import { byId, el } from './panel/dom.js';
 import { Panels } from './panel/panels.js';
 import { sizeOf } from './panel/traced.js';
 import { toast } from './panel/toasts.js';
-import { Connection, backdropsOf, libraryOf, liveAddress, peopleOf } from './protocol/connection.js';
+import { Connection, backdropsOf, libraryOf, liveAddress, peopleOf }
+  from './protocol/connection.js';
 import { Live } from './state.js';
 import { CameraWalk } from './walk/camera_walk.js';
 import { Hands } from './walk/hands.js';
@@ -59,7 +60,7 @@ class Page {
     return {
       say: (message, key) => edits.say(message, key),
       dim: (name, factor) => edits.dim(name, factor),
-      goTo: (done) => edits.goTo(done),
+      goTo: (done) => this.goTo(done),
       solid: (on) => (walk.solid = on),
       smooth: (on) => light.smooth(on),
       flames: (on) => (this.picture.liveFlames = on),
@@ -70,7 +71,7 @@ class Page {
       addKind: (kind) => this.selection.addKind(kind),
       selection: {
         nudge: (way, metres) => this.selection.mover.nudge(way, metres),
-        place: (position) => this.selection.mover.place(position),
+        place: (axis, metres) => this.selection.mover.place(axis, metres),
         snap: (on) => (this.selection.mover.snaps = on),
         copy: () => this.selection.mover.copy(),
         remove: () => this.selection.remove(),
@@ -99,7 +100,7 @@ class Page {
       click: (x, y) => selection.click(x, y),
       grab: (x, y) => selection.grab(x, y),
       drag: (x, y) => selection.drag(x, y),
-      drop: () => selection.mover.send(),
+      drop: () => selection.mover.drop(),
       key: (code) => keys[code]?.(),
       undo: () => this.panels.history.back(),
       redo: () => this.panels.history.again(),
@@ -117,13 +118,15 @@ class Page {
       fading: (now) => (light.fading(now), panels.top.fading(now)),
       progress: (progress) => panels.top.progress(progress),
       factors: (changes) => (panels.groups.factors(changes), light.dimmed()),
-      time: ({ seconds }) => (panels.state.time(seconds), light.dimmed()),
+      time: ({ seconds }) =>
+        (panels.state.time(seconds), light.dimmed(), panels.checks.changed()),
       probe: (answer) => panels.inspect.probe(answer),
       sign: (verdicts) => panels.inspect.judged(verdicts),
       suggested: (answer) => panels.suggest.suggested(answer),
       checks: (checks) => panels.checks.checked(checks),
       added: (copy) => (selection.awaited = copy),
       picture: (picture) => panels.traced.show(picture),
+      step: ({ last }) => (panels.history.goesOn(last), panels.checks.changed()),
       history: (history) => (panels.history.set(history), panels.checks.changed()),
       saved: ({ file }) => toast(`Saved as ${file}`, 'good'),
       refused: (refusal) => this.refused(refusal),
@@ -146,7 +149,16 @@ class Page {
     this.panels.top.link(state, words);
   }
 
+  /** Undoes or redoes; a move that is not sent yet is forgotten. */
+  goTo(done) {
+    this.selection.mover.cancel();
+    this.edits.goTo(done);
+  }
+
   shown(scene) {
+    const at = scene.states?.at ?? null;
+    if (at !== this.shownAt) this.panels.checks.changed();
+    this.shownAt = at;
     this.panels.scene(scene);
     this.walk.start(scene);
     this.building.scene(scene);
@@ -154,9 +166,11 @@ class Page {
     this.light.changed();
   }
 
-  refused({ why, picture, suggestion, checks }) {
+  refused({ why, picture, suggestion, checks, sign }) {
     if (checks) return this.panels.checks.refused(why);
+    if (sign !== null) return this.panels.inspect.refused(sign, why);
     toast(`Refused: ${why}`);
+    this.panels.history.refused();
     if (picture !== null) return this.panels.traced.refused(picture);
     if (suggestion) return this.panels.suggest.refused();
     const { scene } = this.live;

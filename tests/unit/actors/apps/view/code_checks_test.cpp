@@ -42,10 +42,14 @@ width = 1
 }
 
 Json checks_of(const SceneDescription& scene, const SceneEdits& edits,
-               const std::map<std::string, double>& factors = {}) {
+               const std::map<std::string, double>& factors = {},
+               std::optional<double> seconds = {}) {
   LiveOptions options;
   options.threads = 2;
-  const auto checks = code_checks(scene, edits, factors, options);
+  LiveDimming dimming;
+  dimming.factors = factors;
+  dimming.seconds = seconds;
+  const auto checks = code_checks(scene, edits, dimming, options);
   INFO((checks ? std::string() : checks.problem().text()));
   REQUIRE(checks.ok());
   return checks.value();
@@ -82,6 +86,12 @@ TEST_CASE("the checks of a live view follow moves and dimming", "[view][codes]")
     const Json dimmed = centre_line(checks_of(*scene, edits, {{"lamp", 0.5}}));
     CHECK(dimmed["value"].get<double>() ==
           Approx(0.5 * dark["value"].get<double>()).epsilon(1e-6));
+  }
+  SECTION("after the battery has ended") {
+    SceneDescription supplied = *scene;
+    supplied.emitters[0].duration_s = 3600;
+    CHECK(centre_line(checks_of(supplied, edits, {}, 60))["value"] == dark["value"]);
+    CHECK(centre_line(checks_of(supplied, edits, {}, 7200))["value"] == 0);
   }
   SECTION("moved to the middle") {
     edits.luminaires["lamp"] = {{7, 1.5, 2.97}, std::nullopt};

@@ -99,6 +99,8 @@ TEST_CASE("types of the design are added, copied, saved and undone", "[view]") {
   edited.until_done();
   CHECK(edited.scene()["luminaires"].size() == 5);
   CHECK(edited.scene()["signs"].size() == 2);
+  edited.says(R"({"type":"add","kind":"sign","of":"new sign","of_type":true,"position":[3,3,2]})");
+  CHECK(edited.why().find("needs \"facing\"") != std::string::npos);
   edited.says(R"({"type":"save","name":"with types"})");
   INFO(edited.answers());
   REQUIRE(edited.viewer.last("saved") != nullptr);

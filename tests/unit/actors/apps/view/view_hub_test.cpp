@@ -655,3 +655,14 @@ gaze = [1, 0, 0]
   REQUIRE(sure["rows"].size() == 1);
   CHECK(sure["rows"][0]["verdict"] == "legible");
 }
+
+TEST_CASE("a dragged slider is one step, and each change of it is told in short", "[view]") {
+  Edited edited;
+  edited.says(R"({"type":"factor","group":"left","factor":0.25})");
+  CHECK((*edited.viewer.last("history"))["steps"].size() == 1);
+  edited.says(R"({"type":"factor","group":"left","factor":0.5})");
+  CHECK(edited.viewer.last("history") == nullptr);
+  CHECK((*edited.viewer.last("step"))["last"]["value"] == 0.5);
+  edited.says(R"({"type":"history","done":0})");
+  CHECK((*edited.viewer.last("factors"))["factors"] == Json({{"left", 1.0}}));
+}

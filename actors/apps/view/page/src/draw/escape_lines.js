@@ -4,7 +4,7 @@
 const storey_m = 3.5;
 const arrow_m = 0.35;
 
-const isBelow = (z, cut) => z <= cut && z > cut - storey_m;
+export const isBelow = (z, cut) => z <= cut && z > cut - storey_m;
 
 function segment(out, [ax, ay], [bx, by], z) {
   out.push(ax, ay, z, bx, by, z);

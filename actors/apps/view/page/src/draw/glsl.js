@@ -403,7 +403,8 @@ void main() {
   gl_PointSize = size * (kind > 2.5 ? 1.8 : 1.0);
 }`;
 
-// Rings for luminaires, drops for flames, squares for signs, a disc for the walker; walls hide marks.
+// Rings for luminaires, drops for flames, squares for signs, a disc for the walker; walls hide
+// marks.
 export const markFragment = `${common}
 in vec3 ink;
 in float shape, nearDepth;

@@ -219,7 +219,8 @@ export class Picture {
    * draw finely.
    */
   flamesMove() {
-    return this.liveFlames && !this.surfacesAlone && this.seesFlames && this.shares.moving > slowMachine;
+    const shown = this.seesFlames && !this.surfacesAlone;
+    return this.liveFlames && shown && this.shares.moving > slowMachine;
   }
 
   /** Lets flames go on by this many seconds. */

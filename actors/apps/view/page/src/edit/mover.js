@@ -13,7 +13,7 @@ const gap_m = 0.05;
 export class Mover {
   /**
    * `say(message, key)` to the program; `outline(corners)`; `moved(position)` for the panel;
-   * `yaw()` of the view, 90 degrees in plan; `others(kind)`: places of the other things.
+   * `yaw()` of the view, 90 degrees in plan; `others(kind, name)`: places of the other things.
    */
   constructor({ say, outline, moved, yaw, others }) {
     Object.assign(this, { say, outline, moved, yaw, others });
@@ -21,18 +21,34 @@ export class Mover {
     this.release();
   }
 
+  /** What waits to be sent of another thing is sent first, and a drag of it ends. */
   hold(kind, thing) {
+    if (this.kind !== kind || this.thing?.name !== thing.name) this.release();
+    clearTimeout(this.timer);
     this.pending = false;
     this.kind = kind;
     this.thing = { ...thing };
+    this.from = thing.position;
     this.draw();
   }
 
   release() {
+    if (this.pending) this.send();
     clearTimeout(this.timer);
     this.pending = false;
-    this.thing = null;
+    this.thing = this.grip = null;
     this.outline([]);
+  }
+
+  /** Forgets a move that was not sent. */
+  cancel() {
+    clearTimeout(this.timer);
+    if (!this.pending) return;
+    this.pending = false;
+    this.grip = null;
+    this.thing.position = this.from;
+    this.moved(this.from);
+    this.draw();
   }
 
   /**
@@ -64,10 +80,10 @@ export class Mover {
     this.timer = setTimeout(() => this.send(), patience);
   }
 
-  /** A place that was typed. */
-  place(position) {
-    if (!this.thing || !position.every(Number.isFinite)) return;
-    this.to(position);
+  /** A coordinate that was typed; the others stay as they are. */
+  place(axis, metres) {
+    if (!this.thing || !Number.isFinite(metres)) return;
+    this.to(this.thing.position.map((x, k) => (k === axis ? metres : x)));
     this.send();
   }
 
@@ -87,16 +103,27 @@ export class Mover {
   }
 
   drag(origin, direction) {
-    const point = this.onPlane(origin, direction);
+    const point = this.grip && this.onPlane(origin, direction);
     if (!point) return;
     const position = add(point, this.grip);
     this.to(this.snaps ? snapped(position, this.others(this.kind, this.thing.name), this.slides)
       : position);
   }
 
-  /** Coordinates along which a drag moves: not the one that the plane's normal follows. */
+  /**
+   * Coordinates that snap: of a drag in plan the horizontal ones, along a wall those in it. A thing
+   * with a facing never snaps through its wall, so on an oblique one only its height does.
+   */
   get slides() {
-    return this.normal.map((n) => Math.abs(n) < 0.999);
+    const inPlan = this.normal[2] === 1;
+    const { facing } = this.thing;
+    return [0, 1, 2].map((k) => (k < 2 || !inPlan) && !(Math.abs(facing?.[k] ?? 0) > 1e-3));
+  }
+
+  /** Ends a drag. */
+  drop() {
+    this.grip = null;
+    if (this.pending) this.send();
   }
 
   to(position) {
@@ -119,6 +146,7 @@ export class Mover {
     clearTimeout(this.timer);
     this.pending = false;
     const { name, position, facing } = this.thing;
+    this.from = position;
     this.say({ type: 'move', kind: this.kind, name, position, ...(facing && { facing }) }, 'move');
   }
 

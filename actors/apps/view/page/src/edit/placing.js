@@ -27,20 +27,24 @@ function aheadOf(building, eye, direction) {
   return { place: add(eye, scale(level, far)), level };
 }
 
-/** `ray`: through the middle of the picture. In plan it points down, from above the building. */
-export function placeOf(kind, building, { eye, ray, inPlan, centre }) {
+/**
+ * `ray`: through the middle of the picture. `centre`: of plan and orbit, where nobody stands; they
+ * show nothing above `cut`.
+ */
+export function placeOf(kind, building, { eye, ray, mode, centre, cut }) {
+  const walking = mode === 'walk';
   if (kind === 'luminaire') {
-    const under = inPlan ? centre : aheadOf(building, eye, ray.direction).place;
+    const under = walking ? aheadOf(building, eye, ray.direction).place : centre;
     return { position: underCeiling(building, under) };
   }
-  const hit = inPlan ? null : building.nearest(ray.origin, ray.direction);
+  const hit = mode === 'plan' ? null : building.nearest(ray.origin, ray.direction, cut);
   if (hit && Math.abs(hit.normal[2]) < 0.5) {
     const normal = scale(hit.normal, hit.front ? 1 : -1);
     const facing = unit([normal[0], normal[1], 0]);
     return { position: add(hit.point, scale(facing, offFace_m)), facing };
   }
-  const { place, level } = inPlan ? { place: centre, level: [1, 0, 0] }
-    : aheadOf(building, eye, ray.direction);
+  const { place, level } = walking ? aheadOf(building, eye, ray.direction)
+    : { place: centre, level: [1, 0, 0] };
   const floor = building.floorUnder(place) ?? 0;
   return { position: [place[0], place[1], floor + usualSign_m], facing: scale(level, -1) };
 }

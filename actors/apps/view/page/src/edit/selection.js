@@ -22,6 +22,7 @@ export class Selection {
     this.inspect = panels.inspect;
     this.say = (message, key) => edits.say(message, key);
     this.probes = 0;
+    this.judged = 0;
     /** A copy requested here is selected when it arrives. */
     this.awaited = null;
     this.mover = new Mover({
@@ -41,9 +42,10 @@ export class Selection {
       this.walk.building?.nearest(origin, direction, this.walk.cut ?? Infinity) ?? null;
     const sign = this.signAt(x, y, hit?.distance ?? farthest_m);
     const luminaire = sign ? null : this.luminaireAt(x, y);
-    if (sign) this.sign(sign);
-    else if (luminaire) this.luminaire(luminaire);
-    else if (hit) this.probe(hit, this.picture.surfacesAlone ? null : this.picture.luminanceAt(x, y));
+    if (sign) this.choose('sign', sign);
+    else if (luminaire) this.choose('luminaire', luminaire);
+    else if (hit)
+      this.probe(hit, this.picture.surfacesAlone ? null : this.picture.luminanceAt(x, y));
     else this.clear();
   }
 
@@ -60,7 +62,7 @@ export class Selection {
     const now = all.findIndex(({ kind, thing }) =>
       kind === subject.kind && thing.name === subject.name);
     const chosen = all[(now + 1) % all.length];
-    if (chosen) this[chosen.kind](chosen.thing);
+    if (chosen) this.choose(chosen.kind, chosen.thing);
   }
 
   signAt(x, y, distance) {
@@ -88,14 +90,19 @@ export class Selection {
   sign(sign) {
     this.inspect.sign(sign);
     this.mover.hold('sign', sign);
-    this.say({ type: 'judge', sign: sign.name });
+    this.inspect.asked = ++this.judged;
+    this.say({ type: 'judge', sign: sign.name, id: this.judged }, 'judge');
+  }
+
+  /** Selects what the viewer has asked for. */
+  choose(kind, thing) {
+    this[kind](thing);
     this.reveal();
   }
 
   luminaire(luminaire) {
     this.inspect.luminaire(luminaire);
     this.mover.hold('luminaire', luminaire);
-    this.reveal();
   }
 
   /** Requests the light at a point of a surface. */
@@ -116,9 +123,10 @@ export class Selection {
   addKind({ kind, of, ofType }) {
     const { walk } = this;
     if (!walk.building) return;
-    const { eye, plan } = walk.motion;
-    const { position, facing } = placeOf(kind, walk.building, { eye, ray: walk.ray(0, 0),
-      inPlan: walk.inPlan, centre: [...plan.centre, plan.cut] });
+    const { mode, eye, plan, orbit } = walk.motion;
+    const centre = mode === 'orbit' ? orbit.centre : [...plan.centre, plan.cut];
+    const { position, facing } = placeOf(kind, walk.building, { eye, ray: walk.ray(0, 0), mode,
+      centre, cut: walk.cut ?? Infinity });
     this.say({ type: 'add', kind, of, position: position.map((x) => Number(x.toFixed(3))),
       ...(facing && { facing }), ...(ofType && { of_type: true }) });
   }
@@ -141,7 +149,8 @@ export class Selection {
     const { kind } = copy ? this.awaited : this.inspect.subject ?? {};
     const thing = copy ?? found(this.inspect.subject);
     if (copy) this.awaited = null;
-    if (thing) this[kind](thing);
+    if (copy) this.choose(kind, copy);
+    else if (thing) this[kind](thing);
     else if (lists[kind]) this.clear();
   }
 

@@ -7,7 +7,7 @@ export const luminanceWeights = [0.2126, 0.7152, 0.0722];
 export const luminanceOf = ([r, g, b]) =>
   luminanceWeights[0] * r + luminanceWeights[1] * g + luminanceWeights[2] * b;
 
-/** Where the colours of illuminance change [lx]. The codes' limits are among them. */
+/** Where the colours of illuminance change [lx]; 0.5, 1 and 5 lx of EN 1838 are among them. */
 export const luxSteps =
   [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 

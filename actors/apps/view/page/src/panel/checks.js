@@ -1,7 +1,7 @@
 // The checks of the codes, which follow every edit while the list is open: what fails first, with
 // margin and place.
 import { words } from '../light/colours.js';
-import { button, el, section } from './dom.js';
+import { button, el, keepFocus, section } from './dom.js';
 
 /** Edits that follow each other sooner are checked together [ms]. */
 const patience_ms = 150;
@@ -13,8 +13,8 @@ const tones = { fail: 'bad', pass: 'good' };
 const unfolded = new Set(['fail']);
 
 const scope = 'By direct light of the emergency luminaires in clear air, as placed and dimmed ' +
-  'here. Reflected light, smoke and what people read are not in it: click a sign for its ' +
-  'verdicts, and assess a saved variant to be sure.';
+  'here and at this time. Reflected light, smoke and what people read are not in it: click a ' +
+  'sign for its verdicts, and assess a saved variant to be sure.';
 
 /** "0.84 lx, at least 1 lx: −16 %". */
 export function figuresOf({ value, limit, atLeast, unit, margin }) {
@@ -32,6 +32,7 @@ export class Checks {
   constructor({ say, show }) {
     Object.assign(this, { say, show });
     this.open = new Set(unfolded);
+    this.asked = 0;
     this.toggle = button('Check the codes', () => this.follow(!this.follows),
       { aria: { pressed: 'false' } });
     this.words = el('p', { className: 'note', role: 'status' });
@@ -66,16 +67,16 @@ export class Checks {
     if (!this.follows) return;
     this.lists.setAttribute('aria-busy', 'true');
     this.words.textContent = 'Checking …';
-    this.say({ type: 'checks' }, 'checks');
+    this.say({ type: 'checks', id: ++this.asked }, 'checks');
   }
 
-  checked({ rows, words: summary, counts, seconds }) {
-    if (!this.follows) return;
+  checked({ id, rows, words: summary, counts, seconds }) {
+    if (!this.follows || id !== this.asked) return;
     this.lists.removeAttribute('aria-busy');
     this.words.textContent = `${summary} (${words(seconds, 2)} s). ${scope}`;
     const groups = Object.keys(titles).map((verdict) =>
       this.group(verdict, rows.filter((row) => row.verdict === verdict), counts[verdict] ?? 0));
-    this.lists.replaceChildren(...groups.filter(Boolean));
+    keepFocus(this.lists, () => this.lists.replaceChildren(...groups.filter(Boolean)));
   }
 
   group(verdict, rows, count) {
@@ -85,7 +86,8 @@ export class Checks {
       more > 0 ? el('li', {}, el('small', { textContent: `and ${more} more` })) : null);
     const details = el('details', { open: this.open.has(verdict) },
       el('summary', { className: tones[verdict] ?? '' },
-        el('b', { textContent: titles[verdict] }), ' ', el('small', { textContent: String(count) })),
+        el('b', { textContent: titles[verdict] }), ' ',
+        el('small', { textContent: String(count) })),
       list);
     details.addEventListener('toggle', () =>
       (details.open ? this.open.add(verdict) : this.open.delete(verdict)));

@@ -25,6 +25,14 @@ export function middle(name) {
     ...parts.map((textContent) => el('span', { textContent })));
 }
 
+/** Replaces elements; what has the focus keeps it by its place among those that can have it. */
+export function keepFocus(parent, replace) {
+  const all = () => [...parent.querySelectorAll('button, summary, input')];
+  const place = all().indexOf(document.activeElement);
+  replace();
+  if (place >= 0) all()[place]?.focus({ preventScroll: true });
+}
+
 export const section = (title, ...children) =>
   el('section', {}, el('h2', { textContent: title }), ...children);
 

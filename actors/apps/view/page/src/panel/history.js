@@ -1,7 +1,7 @@
 // What was changed in this view, as a list of steps; undone and redone by buttons, keys or a click
 // on the step.
 import { words } from '../light/colours.js';
-import { button, el, middle, section } from './dom.js';
+import { button, el, keepFocus, middle, section } from './dom.js';
 
 const plural = { factor: 'lights', add: 'additions', move: 'places', remove: 'removals' };
 
@@ -32,16 +32,24 @@ export class History {
 
   set({ steps, done }) {
     this.steps = steps;
-    this.done = done;
+    this.done = this.told = done;
     const items = steps.map((step, i) => {
       const go = button('', () => this.go(i + 1));
       go.append(middle(wordsOf(step)));
       return el('li', { className: i < done ? '' : 'undone' }, go);
     });
     const opened = button('As opened', () => this.go(0));
-    this.list.replaceChildren(...(items.length ? [el('li', {}, opened), ...items] : []));
+    keepFocus(this.list, () =>
+      this.list.replaceChildren(...(items.length ? [el('li', {}, opened), ...items] : [])));
     this.present(this.list.children[done]);
     this.enable();
+  }
+
+  /** The last step goes on: a slider is being dragged. */
+  goesOn(last) {
+    if (this.steps.length === 0) return;
+    this.steps[this.steps.length - 1] = last;
+    this.list.lastElementChild?.firstChild.replaceChildren(middle(wordsOf(last)));
   }
 
   /** Marks the present step, and scrolls the list alone to it. */
@@ -50,6 +58,12 @@ export class History {
     item.firstChild.setAttribute('aria-current', 'step');
     const { list } = this;
     list.scrollTop = item.offsetTop - list.offsetTop - list.clientHeight / 2;
+  }
+
+  /** What was asked for may not have happened. */
+  refused() {
+    this.done = this.told;
+    this.enable();
   }
 
   back() {
@@ -75,6 +89,7 @@ export class History {
 
   edits(editor) {
     this.editor = editor;
+    this.done = this.told;
     for (const { firstChild } of this.list.children) firstChild.disabled = !editor;
     this.enable();
   }

@@ -82,8 +82,8 @@ export class Inspect {
     return same;
   }
 
-  judged({ name, rows, note, provisional }) {
-    if (this.subject?.kind !== 'sign' || this.subject.name !== name) return;
+  judged({ id, name, rows, note, provisional }) {
+    if (id !== this.asked || this.subject?.kind !== 'sign' || this.subject.name !== name) return;
     this.verdicts.removeAttribute('aria-busy');
     const head = el('tr', {}, ...['From', 'Distance', 'Verdict'].map((t) =>
       el('th', { textContent: t, scope: 'col' })));
@@ -97,6 +97,14 @@ export class Inspect {
     this.verdicts.replaceChildren(el('p', { className: 'note', textContent: state }),
       rows.length ? table
         : el('p', { className: 'note', textContent: 'No observers: nothing to judge from.' }));
+  }
+
+  /** The sign is not judged. */
+  refused(name, why) {
+    if (this.subject?.kind !== 'sign' || this.subject.name !== name) return;
+    this.verdicts.removeAttribute('aria-busy');
+    this.verdicts.replaceChildren(
+      el('p', { className: 'note', textContent: `Nothing is judged: ${why}` }));
   }
 
   luminaire(luminaire) {
@@ -121,10 +129,9 @@ export class Inspect {
 
   /** Coordinates to read and to type, and whether drags come to rest in line with others. */
   makePlace() {
-    const typed = () => this.moveTo(this.coordinates.map((input) => input.valueAsNumber));
-    this.coordinates = ['x', 'y', 'z'].map((axis) => el('input', {
+    this.coordinates = ['x', 'y', 'z'].map((axis, k) => el('input', {
       type: 'number', step: 0.05, title: `${axis} [m]`, aria: { label: `${axis} in metres` },
-      on: { change: typed },
+      on: { change: ({ target }) => this.moveTo(k, target.valueAsNumber) },
     }));
     const snap = el('input', {
       type: 'checkbox', checked: this.snaps,

@@ -1,5 +1,6 @@
 // Names beside marks, in plan and in orbit.
 import { Vector3 } from 'three';
+import { isBelow } from '../draw/escape_lines.js';
 import { el } from './dom.js';
 
 const shownMost = 80;
@@ -22,9 +23,9 @@ export class Labels {
     const of = (kind, list, place) =>
       list.map((thing) => ({ kind, name: thing.name, position: thing[place] }));
     const flames = groups.filter((g) => g.kind === 'flame');
-    this.things = [...of('sign', signs, 'position'), ...of('observer', observers, 'eye'),
-      ...of('flame', flames, 'position'), ...routes.map(inMiddle), ...areas.map(inCorner)]
-      .slice(0, shownMost);
+    this.things = [...routes.map(inMiddle), ...areas.map(inCorner),
+      ...of('sign', signs, 'position'), ...of('observer', observers, 'eye'),
+      ...of('flame', flames, 'position')].slice(0, shownMost);
     for (const thing of this.things)
       thing.element = el('span', { className: thing.kind, textContent: thing.name });
     this.parent.replaceChildren(...this.things.map((t) => t.element));
@@ -47,7 +48,8 @@ export class Labels {
       const free = taken.every(([tx, ty]) =>
         Math.abs(tx - at[0]) > apart_px.x || Math.abs(ty - at[1]) > apart_px.y);
       const inside = ahead && Math.abs(x) < 1 && Math.abs(y) < 1;
-      element.hidden = !free || !inside || (onPlan && mode !== 'plan') || (mode === 'orbit' && position[2] > cut + 0.5);
+      const absent = onPlan && (mode !== 'plan' || !isBelow(position[2], cut));
+      element.hidden = !free || !inside || absent || (mode === 'orbit' && position[2] > cut + 0.5);
       if (element.hidden) continue;
       taken.push(at);
       element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;

@@ -40,9 +40,9 @@ export class Panels {
     this.traced = new Traced(wants.say);
     this.labels = new Labels(byId('labels'));
     this.planKey = new PlanKey();
-    byId('panel').append(this.inspect.element, this.state.element, this.clock.element,
-      this.groups.element, this.library.element, this.checks.element, this.suggest.element, this.rendition.element, this.history.element,
-      this.state.saveElement);
+    const parts = [this.inspect, this.state, this.clock, this.groups, this.library, this.checks,
+      this.suggest, this.rendition, this.history];
+    byId('panel').append(...parts.map(({ element }) => element), this.state.saveElement);
     this.edits(false);
   }
 

@@ -9,8 +9,8 @@ const explained = {
   eye: 'A simple dark-adapted eye: mesopic luminance (CIE 191, scotopic part estimated from ' +
     'colour), brightness by Ward 1994 on a 250 cd/m² screen. No glare veil, no loss of acuity.',
   luminance: 'False colours of luminance as it arrives at the eye.',
-  illuminance: 'Illuminance of surfaces; their other lights, signs and smoke are not drawn. Where ' +
-    'colours meet, it has the value of the key.',
+  illuminance: 'Illuminance of surfaces, without lamps, signs, people and smoke. Where colours ' +
+    'meet, it has the value of the key.',
 };
 const modes = [['camera', 'Camera'], ['eye', 'Eye'], ['luminance', 'Luminance'],
   ['illuminance', 'Lux']];

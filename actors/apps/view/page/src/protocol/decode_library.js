@@ -77,7 +77,8 @@ function sign(value, path) {
     text: text(s.text, `${path}.text`),
     width: number(s.width, `${path}.width`, 1e-3, 100),
     height: number(s.height, `${path}.height`, 1e-3, 100),
-    colours: list(s.colours, `${path}.colours`, limits.colours, (rgb, at) => list(rgb, at, 3, byte)),
+    colours: list(s.colours, `${path}.colours`, limits.colours,
+      (rgb, at) => list(rgb, at, 3, byte)),
     face: faceOf(s.face, `${path}.face`),
   };
 }

@@ -371,6 +371,7 @@ const readers = {
     surface: textOr(m.surface, 'surface', ''),
   }),
   sign: (m) => ({
+    id: whole(m.id ?? 0, 'id', 0, 2 ** 53),
     name: text(m.name, 'name'),
     rows: list(m.rows, 'rows', (row, path) => ({
       from: text(row.from, `${path}.from`),
@@ -401,6 +402,7 @@ const readers = {
     words: text(m.words, 'words'),
   }),
   checks: (m) => ({
+    id: whole(m.id ?? 0, 'id', 0, 2 ** 53),
     rows: list(m.rows, 'rows', check),
     counts: Object.fromEntries(numbersByName(m.counts, 'counts')),
     words: text(m.words, 'words'),
@@ -415,12 +417,14 @@ const readers = {
     const steps = list(m.steps, 'steps', step);
     return { steps, done: whole(m.done, 'done', 0, steps.length) };
   },
+  step: (m) => ({ last: step(m.last, 'last') }),
   saved: (m) => ({ file: text(m.file, 'file') }),
   refused: (m) => ({
     why: text(m.why, 'why'),
     picture: m.picture === undefined ? null : whole(m.picture, 'picture', 0, 2 ** 53),
     suggestion: m.suggestion === true,
     checks: m.checks === true,
+    sign: m.sign === undefined ? null : text(m.sign, 'sign'),
   }),
   editor: (m) => ({ editor: m.editor === true }),
 };
