@@ -17,6 +17,31 @@ std::string refused(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("undoing, additions of types, and ids of questions are decoded within limits", "[view]") {
+  const auto history = decode_page_message(R"({"type":"history","done":3})");
+  REQUIRE(history.ok());
+  CHECK(std::get<HistoryEdit>(history.value()).done == 3);
+  CHECK(is_edit(history.value()));
+  CHECK(refused(R"({"type":"history","done":-1})").find("done") != std::string::npos);
+  CHECK(refused(R"({"type":"history","done":201})").find("done") != std::string::npos);
+  CHECK(refused(R"({"type":"history","done":1.5})").find("done") != std::string::npos);
+  const auto add = decode_page_message(
+      R"({"type":"add","kind":"luminaire","of":"lamp","of_type":true,"position":[1,2,3]})");
+  REQUIRE(add.ok());
+  CHECK(std::get<AddEdit>(add.value()).of_type);
+  CHECK(refused(R"({"type":"add","kind":"sign","of":"x","of_type":1,"position":[1,2,3]})")
+            .find("of_type") != std::string::npos);
+  const auto judge = decode_page_message(R"({"type":"judge","sign":"exit","id":7})");
+  REQUIRE(judge.ok());
+  CHECK(std::get<JudgeAsk>(judge.value()).id == 7);
+  CHECK_FALSE(is_edit(judge.value()));
+  const auto checks = decode_page_message(R"({"type":"checks","id":8})");
+  REQUIRE(checks.ok());
+  CHECK(std::get<ChecksAsk>(checks.value()).id == 8);
+  CHECK_FALSE(is_edit(checks.value()));
+  CHECK(refused(R"({"type":"checks","id":-8})").find("id") != std::string::npos);
+}
+
 TEST_CASE("valid messages of a viewer are decoded", "[view]") {
   const auto factor = decode_page_message(R"({"type":"factor","group":"lamp","factor":0.25})");
   REQUIRE(factor.ok());
