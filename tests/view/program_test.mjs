@@ -177,7 +177,7 @@ test('a luminaire is added, the others keep their light, and it is removed', asy
   assert.ok(await page.locator('#banner').isHidden());
   await lit(page, old + 1);
   await shot('program_added_lamp');
-  await page.getByRole('button', { name: 'Remove' }).click();
+  await page.getByRole('button', { name: 'Remove', exact: true }).click();
   await selected(null);
   assert.equal((await lightOf('kept')).length, others);
 });
@@ -202,7 +202,7 @@ test('a sign is added, assessed, saved as a variant, and removed', async () => {
   await page.locator('.toast', { hasText: 'one sign more.toml' }).waitFor(patience);
   const saved = readFileSync(`${folder}/one sign more.toml`, 'utf8');
   assert.match(saved, /kind = "sign"\nof = "exit east"\ncopy = "exit east copy"\nposition = /);
-  await page.getByRole('button', { name: 'Remove' }).click();
+  await page.getByRole('button', { name: 'Remove', exact: true }).click();
   await selected(null);
   assert.deepEqual(await lightOf('new'), []);
   assert.ok((await mean()) > 0.001);
