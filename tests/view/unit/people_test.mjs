@@ -42,7 +42,7 @@ test('a wrong field of people is refused, and named', () => {
   refused({ ...walker(), eye_height: 0 }, /people\[0\]\.eye_height/);
   refused({ ...walker(), to: 9 }, /people\[0\]\.to/);
   refused({ ...walker(), from: 'now' }, /people\[0\]\.from/);
-  refused({ ...walker(), feet: '"><script>' }, /no base64/);
+  refused({ ...walker(), feet: '"><script>' }, /not base64/);
   refused({ ...walker(), feet: '' }, /0 bytes/);
   refused({ ...walker(), feet: Buffer.alloc(13).toString('base64') }, /13 bytes/);
   refused({ ...walker(), feet: feet([1e9, 0, 0]) }, /too far/);

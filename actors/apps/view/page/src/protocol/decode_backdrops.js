@@ -1,6 +1,6 @@
 // Decodes backdrops.json: drawings under plans. The result has the fields, types and sizes that the
 // rest of the page relies on, and nothing else.
-import { ProtocolError } from './decode_frame.js';
+import { fail } from './checked.js';
 
 export const limits = {
   backdrops: 50,
@@ -8,10 +8,6 @@ export const limits = {
   metres: 1e7,
   pictureCharacters: 24 << 20,
 };
-
-function fail(path, what) {
-  throw new ProtocolError(`${path}: ${what}`);
-}
 
 function numbers(value, path, count) {
   const good = (n) => typeof n === 'number' && Math.abs(n) <= limits.metres;

@@ -1,42 +1,17 @@
 // Decodes library.json: kinds of luminaires and signs that may be added. The result has the fields,
 // types and sizes that the rest of the page relies on, and nothing else.
-import { ProtocolError } from './decode_frame.js';
+import { bytesOf, fail, list, number, record, text } from './checked.js';
 
-export const limits = { kinds: 500, characters: 2048, texels: 96 * 96, colours: 8, angles: 361 };
-
-function fail(path, what) {
-  throw new ProtocolError(`${path}: ${what}`);
-}
-
-function number(value, path, low, high) {
-  if (typeof value !== 'number' || !(value >= low && value <= high))
-    fail(path, `not a number from ${low} to ${high}`);
-  return value;
-}
-
-function text(value, path) {
-  if (typeof value !== 'string' || value.length > limits.characters) fail(path, 'not a short text');
-  return value;
-}
-
-function list(value, path, most, read) {
-  if (!Array.isArray(value) || value.length > most) fail(path, 'not a list');
-  return value.map((item, i) => read(item, `${path}[${i}]`));
-}
-
-function record(value, path) {
-  if (typeof value !== 'object' || value === null || Array.isArray(value)) fail(path, 'no object');
-  return value;
-}
+export const limits = { kinds: 500, colours: 8, angles: 361 };
 
 /** Two half planes of intensities from -180 to 180 degrees, 0 straight down; null without. */
 function curvesOf(value, path, step) {
   if (value === null || value === undefined) return null;
   const count = 360 / step + 1;
-  const curves = list(value, path, 2, (curve, at) => {
-    const values = list(curve, at, limits.angles, (cd, i) => number(cd, i, 0, 1e9));
+  const curves = list(value, path, (curve, at) => {
+    const values = list(curve, at, (cd, i) => number(cd, i, 0, 1e9), limits.angles);
     return values.length === count ? values : fail(at, `${values.length} angles, not ${count}`);
-  });
+  }, 2);
   return curves.length === 2 ? curves : fail(path, 'not two planes');
 }
 
@@ -59,9 +34,7 @@ const luminaire = (step) => (value, path) => {
 function faceOf(value, path) {
   const { columns, rows, texels } = record(value, path);
   const cells = number(columns, `${path}.columns`, 1, 96) * number(rows, `${path}.rows`, 1, 96);
-  if (typeof texels !== 'string' || !/^[A-Za-z0-9+/]*={0,2}$/.test(texels) || texels.length % 4)
-    fail(path, 'no base64');
-  const bytes = Uint8Array.from(atob(texels), (c) => c.charCodeAt(0));
+  const bytes = bytesOf(texels, path);
   if (bytes.length !== cells) fail(path, `${bytes.length} texels, not ${cells}`);
   return { columns, rows, texels: bytes };
 }
@@ -77,8 +50,8 @@ function sign(value, path) {
     text: text(s.text, `${path}.text`),
     width: number(s.width, `${path}.width`, 1e-3, 100),
     height: number(s.height, `${path}.height`, 1e-3, 100),
-    colours: list(s.colours, `${path}.colours`, limits.colours,
-      (rgb, at) => list(rgb, at, 3, byte)),
+    colours: list(s.colours, `${path}.colours`, (rgb, at) => list(rgb, at, byte, 3),
+      limits.colours),
     face: faceOf(s.face, `${path}.face`),
   };
 }
@@ -89,7 +62,7 @@ export function decodeLibrary(value) {
   if (360 % number(step, 'step', 1, 90) !== 0) fail('step', 'no part of a circle');
   return {
     step,
-    kinds: [...list(luminaires, 'luminaires', limits.kinds, luminaire(step)),
-      ...list(signs, 'signs', limits.kinds, sign)],
+    kinds: [...list(luminaires, 'luminaires', luminaire(step), limits.kinds),
+      ...list(signs, 'signs', sign, limits.kinds)],
   };
 }

@@ -1,11 +1,10 @@
 // Decodes text frames: JSON, checked field by field. The result has the fields, types and sizes
 // that the rest of the page relies on, and nothing else.
+import { bytesOf, fail, list, listed, number, record, text } from './checked.js';
 import { limits as frameLimits, ProtocolError } from './decode_frame.js';
 
 export const limits = {
   textBytes: 1 << 24,
-  listed: 4096,
-  characters: 2048,
   metres: 1e6,
   texels: 1 << 20,
   signColours: 8,
@@ -15,37 +14,17 @@ export const limits = {
   tableCells: 1 << 16,
 };
 
-function fail(path, what) {
-  throw new ProtocolError(`${path}: ${what}`);
-}
-
-function number(value, path, low = -1e12, high = 1e12) {
-  if (typeof value !== 'number' || !(value >= low && value <= high))
-    fail(path, `not a number from ${low} to ${high}`);
-  return value;
-}
-
 const whole = (value, path, low, high) =>
   Number.isInteger(value) ? number(value, path, low, high) : fail(path, 'not a whole number');
 
 const numberOrNull = (value, path) =>
   value === null || value === undefined ? null : number(value, path);
 
-function text(value, path) {
-  if (typeof value !== 'string' || value.length > limits.characters) fail(path, 'not a short text');
-  return value;
-}
-
 const textOr = (value, path, other) =>
   value === undefined || value === null ? other : text(value, path);
 
 function oneOf(value, path, choices) {
   return choices.includes(value) ? value : fail(path, `not one of ${choices.join(', ')}`);
-}
-
-function list(value, path, read) {
-  if (!Array.isArray(value) || value.length > limits.listed) fail(path, 'not a list');
-  return value.map((item, i) => read(item, `${path}[${i}]`));
 }
 
 function triple(value, path, low, high) {
@@ -64,24 +43,14 @@ const atLeast = (count, items, path) =>
 const place = (value, path) => triple(value, path, -limits.metres, limits.metres);
 const colour = (value, path) => triple(value, path, -1e9, 1e9);
 
-function record(value, path) {
-  if (typeof value !== 'object' || value === null || Array.isArray(value)) fail(path, 'no object');
-  return value;
-}
-
 const numbersByName = (value, path) =>
   Object.entries(record(value, path)).map(([name, factor]) =>
     [text(name, path), number(factor, `${path}.${name}`, 0, 1e6)]);
 
 function texelsOf(value, path, columns, rows) {
-  let bytes;
-  try {
-    bytes = atob(value);
-  } catch {
-    fail(path, 'not base64');
-  }
+  const bytes = bytesOf(value, path);
   if (bytes.length !== columns * rows) fail(path, `${bytes.length} texels, not ${columns * rows}`);
-  return Uint8Array.from(bytes, (c) => c.charCodeAt(0));
+  return bytes;
 }
 
 /** The Base64 of every PNG file begins so: the eight bytes of its signature. */
@@ -195,7 +164,7 @@ const lamp = (l, path) => ({
   size: triple(l.size, `${path}.size`, 0, 1e4),
   corners: list(l.corners ?? [], `${path}.corners`, place),
   colour: colour(l.colour, `${path}.colour`),
-  table: whole(l.table, `${path}.table`, 0, limits.listed),
+  table: whole(l.table, `${path}.table`, 0, listed),
   ofLuminaire: l.of_luminaire === true,
 });
 
@@ -287,7 +256,7 @@ const stepKinds = ['factor', 'scenario', 'smoke', 'move', 'add', 'remove'];
 const step = (s, path) => ({
   kind: oneOf(s.kind, `${path}.kind`, stepKinds),
   name: textOr(s.name, `${path}.name`, ''),
-  count: whole(s.count, `${path}.count`, 0, limits.listed),
+  count: whole(s.count, `${path}.count`, 0, listed),
   value: numberOrNull(s.value, `${path}.value`),
 });
 

@@ -1,23 +1,11 @@
 // Decodes people.json: where people are at even steps of time. The result has the fields, types and
 // sizes that the rest of the page relies on, and nothing else.
-import { ProtocolError } from './decode_frame.js';
+import { bytesOf, fail, number } from './checked.js';
 
 export const limits = { people: 20000, places: 1000000, seconds: 1e7, metres: 1e7 };
 
-function fail(path, what) {
-  throw new ProtocolError(`${path}: ${what}`);
-}
-
-function number(value, path, low, high) {
-  if (typeof value !== 'number' || !(value >= low && value <= high))
-    fail(path, `not a number from ${low} to ${high}`);
-  return value;
-}
-
-function feetOf(text, path) {
-  if (typeof text !== 'string' || !/^[A-Za-z0-9+/]*={0,2}$/.test(text) || text.length % 4)
-    fail(path, 'no base64');
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+function feetOf(value, path) {
+  const bytes = bytesOf(value, path);
   if (bytes.length === 0 || bytes.length % 12) fail(path, `${bytes.length} bytes`);
   const feet = new Float32Array(bytes.buffer);
   if (!feet.every((x) => Math.abs(x) <= limits.metres)) fail(path, 'a place is too far away');
