@@ -35,10 +35,6 @@ bool comes_before(const Check& a, const Check& b) {
   return a.margin().value_or(1e9) < b.margin().value_or(1e9);
 }
 
-Json optional_json(const std::optional<double>& value) {
-  return value ? number_json(*value) : Json();
-}
-
 Json row_json(const Check& check) {
   const Texts& t = english();
   const std::string rule(name_of(check.rule.id));

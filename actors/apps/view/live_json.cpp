@@ -40,8 +40,7 @@ Json states_json(const SceneDescription& scene, const SceneEdits& edits) {
           {"to", scene.time->to_s},
           {"step", scene.time->step_s},
           {"at", *edits.at_s},
-          {"mains_fail_at",
-           scene.time->mains_fail_at_s ? Json(*scene.time->mains_fail_at_s) : Json()}};
+          {"mains_fail_at", optional_json(scene.time->mains_fail_at_s)}};
 }
 
 double number_of(const std::map<std::string, double>& numbers, const std::string& group) {
@@ -201,6 +200,12 @@ Json gloss_json(const std::vector<LiveGloss>& all) {
   return out;
 }
 
+/// Lines of a plan are left out beyond what a page takes in a list, instead of the whole scene.
+bool has_room(const Json& list, size_t corners) {
+  constexpr size_t listed = 4096;
+  return list.size() < listed && corners <= listed;
+}
+
 Json places(const std::vector<glm::dvec3>& all) {
   Json out = Json::array();
   for (const glm::dvec3& one : all) out.push_back(place(one));
@@ -210,7 +215,8 @@ Json places(const std::vector<glm::dvec3>& all) {
 Json routes_json(const SceneDescription& scene) {
   Json out = Json::array();
   for (const EscapeRoute& route : scene.routes)
-    out.push_back({{"name", route.name}, {"width", route.width_m}, {"path", places(route.path)}});
+    if (has_room(out, route.path.size()))
+      out.push_back({{"name", route.name}, {"width", route.width_m}, {"path", places(route.path)}});
   return out;
 }
 
@@ -219,6 +225,7 @@ Json areas_json(const SceneDescription& scene) {
   Json out = Json::array();
   for (const auto* areas : {&scene.open_areas, &scene.task_areas})
     for (const AssessedArea& area : *areas) {
+      if (!has_room(out, area.outline.size())) continue;
       Json outline = Json::array();
       for (const glm::dvec2& corner : area.outline) outline.push_back({corner.x, corner.y});
       out.push_back({{"name", area.name}, {"outline", std::move(outline)}, {"z", area.z_m}});
@@ -229,7 +236,7 @@ Json areas_json(const SceneDescription& scene) {
 Json emphasis_json(const SceneDescription& scene) {
   Json out = Json::array();
   for (const EmphasisPoint& point : scene.emphasis)
-    out.push_back({{"name", point.name}, {"position", place(point.position)}});
+    if (has_room(out, 1)) out.push_back({{"name", point.name}, {"position", place(point.position)}});
   return out;
 }
 
@@ -247,6 +254,10 @@ std::map<std::string, double> LiveDimming::both() const {
   std::map<std::string, double> out = factors;
   for (const auto& [group, share] : shares) out.try_emplace(group, 1.0).first->second *= share;
   return out;
+}
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? number_json(*value) : Json();
 }
 
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
@@ -272,7 +283,7 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"states", states_json(scene, generation.edits)},
           {"scenario", compiled.scenario.name},
           {"smoke", generation.edits.smoke},
-          {"seconds", dimming.seconds ? Json(*dimming.seconds) : Json()},
+          {"seconds", optional_json(dimming.seconds)},
           {"low", place(compiled.bounds.low)},
           {"high", place(compiled.bounds.high)},
           {"relaid", follows && generation.triangles_before != nullptr},

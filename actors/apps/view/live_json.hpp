@@ -20,6 +20,8 @@ struct LiveDimming {
 /// generation, and may go on showing its light. Requires: it has a look.
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
                      const LiveDimming& dimming, bool editor, bool follows);
+/// Null without a value.
+Json optional_json(const std::optional<double>& value);
 Json progress_json(const LiveProgress& progress);
 Json answer_json(const LiveAnswer& answer);
 

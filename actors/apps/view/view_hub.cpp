@@ -34,7 +34,7 @@ Json step_json(const EditStep& step) {
   return {{"kind", name_of(step.kind)},
           {"name", step.names.empty() ? Json() : Json(step.names.front())},
           {"count", step.names.size()},
-          {"value", step.value ? Json(*step.value) : Json()}};
+          {"value", optional_json(step.value)}};
 }
 
 /// Whether a name is a plain file name.
@@ -332,7 +332,7 @@ void ViewHub::handle(Viewer& viewer, const TimeEdit& edit) {
     shares[group.name] = at == dimming_.shares.end() ? 1.0 : at->second;
   }
   to_all({{"type", "time"},
-          {"seconds", edit.seconds ? Json(*edit.seconds) : Json()},
+          {"seconds", optional_json(edit.seconds)},
           {"shares", shares}});
 }
 
