@@ -4,42 +4,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/apps/view/live_room.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-std::shared_ptr<const SceneDescription> lit_way(const test::TemporaryFolder& folder) {
-  return test::described(folder.write("scene.toml", R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [14, 3, 3]
-material = "white50"
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
-[[emitter]]
-name = "lamp"
-shape = "disc"
-diameter = 0.1
-position = [3, 1.5, 2.97]
-flux_lm = 200
-emergency = "maintained"
-emergency_flux = 200
-maintenance_factor = 0.8
-end_of_duration_factor = 0.7
-[[route]]
-name = "way"
-path = [[1, 1.5, 0], [13, 1.5, 0]]
-width = 1
-)"));
-}
 
 Json checks_of(const SceneDescription& scene, const SceneEdits& edits,
                const std::map<std::string, double>& factors = {},
@@ -69,7 +39,7 @@ Json centre_line(const Json& checks) {
 
 TEST_CASE("the checks of a live view follow moves and dimming", "[view][codes]") {
   const test::TemporaryFolder folder;
-  const auto scene = lit_way(folder);
+  const auto scene = test::emergency_room(folder);
   SceneEdits edits;
   edits.scenario = "failed";
   const Json now = checks_of(*scene, edits);
@@ -104,7 +74,7 @@ TEST_CASE("checks that fail come first, the smallest margin first", "[view][code
   const test::TemporaryFolder folder;
   SceneEdits edits;
   edits.scenario = "failed";
-  const Json checks = checks_of(*lit_way(folder), edits);
+  const Json checks = checks_of(*test::emergency_room(folder), edits);
   const Json& rows = checks["rows"];
   size_t counted = 0;
   for (const auto& count : checks["counts"]) counted += count.get<size_t>();

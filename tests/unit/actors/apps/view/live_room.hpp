@@ -35,6 +35,37 @@ flux_lm = 1000
 inline const std::string live_sign = exit_sign_at("[5.9, 2, 2.2]");
 inline const std::string live_room = two_lamps + live_sign;
 
+/// A lamp near one end of a route, too dark for EN 1838 at the other, after the mains have failed.
+inline std::shared_ptr<const SceneDescription> emergency_room(const TemporaryFolder& folder) {
+  return described(folder.write("scene.toml", R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [14, 3, 3]
+material = "white50"
+[assessment]
+rules = ["en1838-2013"]
+[[scenario]]
+name = "failed"
+operation = "emergency"
+[[emitter]]
+name = "lamp"
+shape = "disc"
+diameter = 0.1
+position = [3, 1.5, 2.97]
+flux_lm = 200
+emergency = "maintained"
+emergency_flux = 200
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+[[route]]
+name = "way"
+path = [[1, 1.5, 0], [13, 1.5, 0]]
+width = 1
+)"));
+}
+
 /// Source groups of the room, in their order.
 inline constexpr int left = 0, right = 1, sign = 2;
 

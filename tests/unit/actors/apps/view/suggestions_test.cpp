@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/apps/view/live_room.hpp"
 
 namespace luxodus {
 namespace {
@@ -12,36 +12,6 @@ namespace {
 using test::TemporaryFolder;
 
 const std::atomic<bool> goes_on{false};
-
-std::shared_ptr<const SceneDescription> emergency_room(const TemporaryFolder& folder) {
-  return test::described(folder.write("scene.toml", R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [14, 3, 3]
-material = "white50"
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
-[[emitter]]
-name = "lamp"
-shape = "disc"
-diameter = 0.1
-position = [3, 1.5, 2.97]
-flux_lm = 200
-emergency = "maintained"
-emergency_flux = 200
-maintenance_factor = 0.8
-end_of_duration_factor = 0.7
-[[route]]
-name = "way"
-path = [[1, 1.5, 0], [13, 1.5, 0]]
-width = 1
-)"));
-}
 
 SceneEdits with_copy(const glm::dvec3& position) {
   SceneEdits edits;
@@ -62,7 +32,7 @@ Json suggested(const SceneDescription& scene, const SceneEdits& edits,
 
 TEST_CASE("suggestions depend on additions, and use only the scene's types", "[view][suggest]") {
   const TemporaryFolder folder;
-  const auto scene = emergency_room(folder);
+  const auto scene = test::emergency_room(folder);
   SceneEdits none;
   none.scenario = "failed";
   const Json alone = suggested(*scene, none);
@@ -84,7 +54,7 @@ TEST_CASE("suggestions depend on additions, and use only the scene's types", "[v
 
 TEST_CASE("only additions of the view may be removed", "[view][suggest]") {
   const TemporaryFolder folder;
-  const auto scene = emergency_room(folder);
+  const auto scene = test::emergency_room(folder);
   const Json answer = suggested(*scene, with_copy({10, 1.5, 2.97}), {"lamp"});
   CHECK(answer["type"] == "refused");
   CHECK(answer["why"].get<std::string>().find("\"lamp\"") != std::string::npos);
