@@ -236,7 +236,8 @@ Json areas_json(const SceneDescription& scene) {
 Json emphasis_json(const SceneDescription& scene) {
   Json out = Json::array();
   for (const EmphasisPoint& point : scene.emphasis)
-    if (has_room(out, 1)) out.push_back({{"name", point.name}, {"position", place(point.position)}});
+    if (has_room(out, 1))
+      out.push_back({{"name", point.name}, {"position", place(point.position)}});
   return out;
 }
 

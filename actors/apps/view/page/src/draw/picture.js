@@ -114,7 +114,8 @@ export class Picture {
     this.smoke = new Smoke(shared, floats);
     this.marks = new Marks(shared.depth);
     this.world = new THREE.Scene();
-    this.world.add(this.surfaces.mesh, this.people.mesh);
+    this.crowd = new THREE.Group().add(this.people.mesh);
+    this.world.add(this.surfaces.mesh, this.crowd);
     this.shining = new THREE.Scene();
     this.shining.add(this.gloss.object, this.signs.object, this.lamps.object);
     this.compose = screenPass(composeFragment, {
@@ -281,6 +282,7 @@ export class Picture {
     if (alone === this.surfacesAlone) return;
     this.surfacesAlone = alone;
     this.surfaces.material.uniforms.illuminance.value = alone;
+    this.crowd.visible = !alone;
     this.again();
   }
 
@@ -320,11 +322,7 @@ export class Picture {
     this.aim(camera);
     this.renderer.setRenderTarget(to);
     this.renderer.clear();
-    const { mesh } = this.people;
-    const people = mesh.visible;
-    mesh.visible &&= !this.surfacesAlone;
     this.renderer.render(this.world, camera);
-    mesh.visible = people;
   }
 
   /** Adds reflections of glossy floors, and the faces of signs and lamps, to surfaces. */
